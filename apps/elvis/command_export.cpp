@@ -8,13 +8,15 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace elvis::commands {
 
 namespace {
 
 struct Arguments {
-    std::string volume;
+    std::vector<std::string> files;
     std::string output;
     std::string plugin;
     std::uint32_t time_step = 0;
@@ -24,7 +26,6 @@ struct Arguments {
 void run(const Arguments& arguments) {
     need_ending("--output", arguments.output, {".vtu"});
     const PluginRegistry registry;
-    const RuntimeVolume volume = open_volume(registry, arguments.volume, arguments.plugin, {});
     ExportOptions options;
     options.time_step = arguments.time_step;
     if (arguments.order > 0) {
@@ -33,6 +34,8 @@ void run(const Arguments& arguments) {
     TaskControl control;
     const ProgressBar progress(control);
     const InterruptGuard guard(control);
+    const VolumeFile file = find_volume(registry, arguments.files, arguments.plugin, {}, control);
+    const RuntimeVolume volume = file.open(&control);
     const ExportReport report = export_vtu(volume, arguments.output, options, control);
     std::printf("%s of order up to %u with %s written to %s\n", counted(report.n_cells, "cell").c_str(), report.largest_order,
                 counted(report.n_points, "point").c_str(), arguments.output.c_str());
@@ -43,9 +46,10 @@ void run(const Arguments& arguments) {
 void add_export(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("export", "Write a volume as VTK's Lagrange cells (.vtu), for ParaView and others");
-    command->add_option("volume", arguments->volume, "Volume file")->required();
+    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
+        ->required();
     command->add_option("-o,--output", arguments->output, "File to write, .vtu")->required();
-    command->add_option("--plugin", arguments->plugin, "Runtime plugin by id; default: the one surest of the file");
+    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command
         ->add_option("--order", arguments->order,

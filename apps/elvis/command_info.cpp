@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "library_context.hpp"
+#include "open_volume.hpp"
 
 #include <core/base/counted.hpp>
 
@@ -9,6 +10,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace elvis::commands {
 
@@ -17,7 +19,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct Arguments {
-    std::string volume;
+    std::vector<std::string> files;
     std::string plugin;
     std::uint32_t time_step = 0;
     double jacobian_tolerance = 1e-9;
@@ -133,8 +135,8 @@ void print_table(const ordered_json& root) {
 void add_info(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "Say what is in a volume");
     auto a = std::make_shared<Arguments>();
-    command->add_option("volume", a->volume, "Volume")->required();
-    command->add_option("--plugin", a->plugin, "Id of the runtime plugin (default: the one surest of the file)");
+    command->add_option("volume", a->files, "Volume, whatever its format (geometry first, then field files)")->required();
+    command->add_option("--plugin", a->plugin, "Id of the plugin (default: the one surest of the file)");
     command->add_option("--time-step", a->time_step, "Time step whose ranges are given");
     command
         ->add_option("--jacobian-tolerance", a->jacobian_tolerance,
@@ -146,7 +148,8 @@ void add_info(CLI::App& app) {
                       "List all elements with a negative or undecided Jacobian or that overlap, not the first 20");
     command->add_flag("--json", a->json, "Answer in JSON");
     command->callback([a] {
-        const data volume = library_context().open(a->volume, a->plugin);
+        const context library = library_context();
+        const data volume = open_watched([&](const task& watch) { return library.open(a->files, a->plugin, {}, watch); });
         auto options = detail::sized<elvis_describe_options>();
         options.flags = ELVIS_DESCRIBE_JACOBIAN_TOLERANCE | (a->lists_all ? ELVIS_DESCRIBE_ALL : 0u);
         options.time_step = a->time_step;

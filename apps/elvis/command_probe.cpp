@@ -1,5 +1,6 @@
 #include "commands.hpp"
 #include "library_context.hpp"
+#include "open_volume.hpp"
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -23,7 +24,7 @@ namespace elvis::commands {
 namespace {
 
 struct Arguments {
-    std::string volume;
+    std::vector<std::string> files;
     std::string plugin;
     std::vector<std::string> points;
     std::string points_file;
@@ -271,15 +272,17 @@ void print_table(const Answers& answers) {
 
 void run(const Arguments& arguments) {
     const std::vector<double> positions = positions_of(arguments);
-    const data volume = library_context(arguments.device).open(arguments.volume, arguments.plugin);
+    const context library = library_context(arguments.device);
+    const data volume =
+        open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); });
     const Answers answers(volume, arguments, positions);
     arguments.json ? print_json(answers) : print_table(answers);
     std::size_t n_unknown = 0;
     for (std::size_t point = 0; point < answers.n_points(); ++point)
         n_unknown += answers.is_unknown(point);
     if (n_unknown > 0)
-        throw Error(arguments.volume, "the inverse mapping failed at " + counted(n_unknown, "point") +
-                                          ": whether they lie in the volume is not known");
+        throw Error(arguments.files.front(), "the inverse mapping failed at " + counted(n_unknown, "point") +
+                                                 ": whether they lie in the volume is not known");
 }
 
 } // namespace
@@ -288,8 +291,9 @@ void add_probe(CLI::App& app) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command =
         app.add_subcommand("probe", "Print element, reference coordinates and fields at points, in double precision");
-    command->add_option("volume", arguments->volume, "Volume file")->required();
-    command->add_option("--plugin", arguments->plugin, "Runtime plugin by id; default: the one surest of the file");
+    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
+        ->required();
+    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
     command->add_option("--point", arguments->points, "Point x,y,z (repeatable)")->allow_extra_args(false);
     command->add_option("--points", arguments->points_file, "File with three numbers a line; # starts a comment");
     command

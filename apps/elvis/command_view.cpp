@@ -33,7 +33,7 @@ void run(Arguments arguments) {
 void add_view(CLI::App& app) {
     CLI::App* command = app.add_subcommand("view", "Look at a volume in a window");
     auto a = std::make_shared<Arguments>();
-    command->add_option("input", a->options.file, "Volume, scene, or foreign file that is then converted");
+    command->add_option("input", a->options.files, "Scene, or volume, whatever its format (geometry first, then field files)");
     command->add_option("--device", a->options.device,
                         "Name (or part of it), index, PCI bus id or UUID of the Vulkan device that draws");
     command->add_option("--size", a->size, "WIDTHxHEIGHT of the window");

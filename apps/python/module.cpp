@@ -227,10 +227,10 @@ public:
             const std::optional<std::string>& cache_folder)
         : m_context(options(device, plugin_path, cache_folder)) {}
 
-    std::unique_ptr<Volume> open(const std::string& path, const std::string& plugin, const std::string& plugin_options,
-                                 const py::object& progress) const {
+    std::unique_ptr<Volume> open(const std::vector<std::string>& paths, const std::string& plugin,
+                                 const std::string& plugin_options, const py::object& progress) const {
         std::optional<data> opened;
-        run(progress, [&](const task& watch) { opened.emplace(m_context.open(path, plugin, plugin_options, watch)); });
+        run(progress, [&](const task& watch) { opened.emplace(m_context.open(paths, plugin, plugin_options, watch)); });
         return std::make_unique<Volume>(m_context, std::move(*opened));
     }
     std::unique_ptr<Volume> from_arrays(const std::string& name, std::uint32_t dimension, const py::list& classes,
@@ -256,6 +256,13 @@ public:
     std::string read_scene(const std::string& path) const { return m_context.read_scene(path).json(); }
     void write_scene(const std::string& text, const std::string& folder, const std::string& path) const {
         m_context.parse_scene(text, folder).write(path);
+    }
+    /** What the scene's `volume` says. */
+    std::unique_ptr<Volume> open_scene_volume(const std::string& text, const std::string& folder,
+                                              const py::object& progress) const {
+        std::optional<data> opened;
+        run(progress, [&](const task& watch) { opened.emplace(m_context.parse_scene(text, folder).open_volume(watch)); });
+        return std::make_unique<Volume>(m_context, std::move(*opened));
     }
     std::string scene_volume(const std::string& text, const std::string& folder) const {
         return m_context.parse_scene(text, folder).volume();
@@ -376,13 +383,14 @@ PYBIND11_MODULE(_elvis, module) {
     py::class_<Context>(module, "Context")
         .def(py::init<const std::string&, const std::optional<std::string>&, const std::optional<std::string>&>(),
              py::arg("device"), py::arg("plugin_path"), py::arg("cache_folder"))
-        .def("open", &Context::open, py::arg("path"), py::arg("plugin"), py::arg("options"), py::arg("progress"))
+        .def("open", &Context::open, py::arg("paths"), py::arg("plugin"), py::arg("options"), py::arg("progress"))
         .def("from_arrays", &Context::from_arrays, py::arg("name"), py::arg("dimension"), py::arg("classes"), py::arg("fields"),
              py::arg("times"), py::arg("groups"), py::arg("progress"))
         .def("count_modes", &Context::count_modes, py::arg("shape"), py::arg("basis"), py::arg("order"))
         .def("check_scene", &Context::check_scene, py::arg("text"), py::arg("folder"))
         .def("read_scene", &Context::read_scene, py::arg("path"))
         .def("write_scene", &Context::write_scene, py::arg("text"), py::arg("folder"), py::arg("path"))
+        .def("open_scene_volume", &Context::open_scene_volume, py::arg("text"), py::arg("folder"), py::arg("progress"))
         .def("scene_volume", &Context::scene_volume, py::arg("text"), py::arg("folder"))
         .def("convert", &Context::convert, py::arg("inputs"), py::arg("output"), py::arg("plugin"), py::arg("options"),
              py::arg("fields"), py::arg("order"), py::arg("continuity"), py::arg("progress"))

@@ -30,6 +30,19 @@ inline void need(const void* argument, const char* name) {
     }
 }
 
+/** A list of texts that the caller gave. `name` is the argument's. */
+inline std::vector<std::string> texts(const elvis_string* list, std::uint32_t n, const char* name) {
+    std::vector<std::string> all;
+    if (n > 0) {
+        need(list, name);
+    }
+    for (std::uint32_t index = 0; index < n; ++index) {
+        need(list[index], name);
+        all.emplace_back(list[index]);
+    }
+    return all;
+}
+
 /** What failed last on this thread, of that context or, with null, of elvis_context_create. */
 void set_error(const Context* context, std::string text);
 const char* error_of(const Context* context);

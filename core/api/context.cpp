@@ -1,6 +1,7 @@
 #include "call.hpp"
 
 #include <core/base/log.hpp>
+#include <core/plugin_host/unknown_file.hpp>
 #include <core/vulkan/device_choice.hpp>
 
 #include <iterator>
@@ -17,11 +18,12 @@ nlohmann::ordered_json plugin_json(const Plugin& plugin) {
     if (plugin.converter() != nullptr) {
         kinds.push_back("converter");
     }
-    return {{"id", plugin.id()},
-            {"name", plugin.name()},
-            {"version", plugin.version()},
-            {"library", plugin.library().string()},
-            {"kinds", kinds}};
+    nlohmann::ordered_json formats = nlohmann::ordered_json::array();
+    for (const FileFormat& format : plugin.formats()) {
+        formats.push_back({{"name", format.name}, {"endings", format.endings}});
+    }
+    return {{"id", plugin.id()}, {"name", plugin.name()}, {"version", plugin.version()}, {"library", plugin.library().string()},
+            {"kinds", kinds},    {"formats", formats}};
 }
 
 /** What elvis_context_describe_file says. */
@@ -33,8 +35,11 @@ nlohmann::ordered_json file_json(const PluginRegistry& plugins, const std::strin
     try {
         plugin = plugins.runtime_for(path);
     } catch (const Error&) {
-        // Says what is wrong if it is nobody's file.
-        return {{"kind", "foreign"}, {"plugin", plugins.converter_for(path)->id()}};
+        try {
+            return {{"kind", "foreign"}, {"plugin", plugins.converter_for(path)->id()}};
+        } catch (const Error& error) {
+            throw unknown_file(plugins, path, error);
+        }
     }
     return {{"kind", "volume"}, {"plugin", plugin->id()}};
 }

@@ -6,18 +6,6 @@ namespace elvis::library {
 
 namespace {
 
-std::vector<std::string> texts(const elvis_string* list, std::uint32_t n, const char* name) {
-    std::vector<std::string> all;
-    if (n > 0) {
-        need(list, name);
-    }
-    for (std::uint32_t index = 0; index < n; ++index) {
-        need(list[index], name);
-        all.emplace_back(list[index]);
-    }
-    return all;
-}
-
 ConvertRequest request_of(const elvis_conversion& conversion) {
     need(conversion.output, "output");
     ConvertRequest request{texts(conversion.inputs, conversion.n_inputs, "inputs"),

@@ -106,6 +106,21 @@ elvis_range range_of(const RuntimeVolume& volume, const FieldExtrema& found) {
     return range;
 }
 
+elvis_data* open_files(const std::shared_ptr<Context>& context, const std::vector<std::string>& paths,
+                       const std::string& plugin, const std::string& options, const elvis_task* task) {
+    auto control = std::make_unique<TaskControl>();
+    follow(*control, task);
+    control->check();
+    const auto open = [file = find_volume(*context->plugins, paths, plugin, options, *control), watch = control.get()] {
+        return file.open(watch);
+    };
+    RuntimeVolume volume = open();
+    follow(*control, nullptr);
+    auto state = std::make_shared<Data>(context, std::move(control), std::move(volume));
+    state->reopen = open;
+    return new elvis_data{std::move(state)};
+}
+
 } // namespace
 
 } // namespace elvis::library
@@ -119,17 +134,34 @@ elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_st
         need(data, "data");
         *data = nullptr;
         need(path, "path");
-        auto control = std::make_unique<TaskControl>();
-        follow(*control, task);
-        control->check();
-        const auto open = [registry = &*context->state->plugins, file = std::string(path), plugin_id = text_or_empty(plugin),
-                           how = text_or_empty(options),
-                           watch = control.get()] { return open_volume(*registry, file, plugin_id, how, watch); };
-        RuntimeVolume volume = open();
-        follow(*control, nullptr);
-        auto state = std::make_shared<Data>(context->state, std::move(control), std::move(volume));
-        state->reopen = open;
-        *data = new elvis_data{std::move(state)};
+        *data = open_files(context->state, {path}, text_or_empty(plugin), text_or_empty(options), task);
+    });
+}
+
+elvis_result elvis_data_open_files(elvis_context* context, const elvis_string* paths, uint32_t n_paths, elvis_string plugin,
+                                   elvis_string options, const elvis_task* task, elvis_data** data) {
+    return call(context, [&] {
+        need(data, "data");
+        *data = nullptr;
+        const std::vector<std::string> files = texts(paths, n_paths, "paths");
+        if (files.empty()) {
+            throw InvalidArgument("paths", "there are none");
+        }
+        *data = open_files(context->state, files, text_or_empty(plugin), text_or_empty(options), task);
+    });
+}
+
+elvis_result elvis_scene_open_volume(const elvis_scene* scene, const elvis_task* task, elvis_data** data) {
+    return call(scene, [&] {
+        need(data, "data");
+        *data = nullptr;
+        const Scene& said = scene->state.scene;
+        if (said.volume.empty()) {
+            throw InvalidArgument("volume", "the scene names none");
+        }
+        std::vector<std::string> files{said.volume};
+        files.insert(files.end(), said.more_files.begin(), said.more_files.end());
+        *data = open_files(scene->state.context, files, said.plugin, said.plugin_options, task);
     });
 }
 

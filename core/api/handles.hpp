@@ -84,9 +84,9 @@ struct Data {
     const std::shared_ptr<Context> context;
     /** Follows the call that has the mutex: what volume and renderer were made with lives longer than a call. */
     const std::unique_ptr<TaskControl> control;
-    const RuntimeVolume volume;
-    /** Opens the volume once more; empty where it is not from a file. */
+    /** Opens the volume once more; empty where it is not from a file. It keeps a temporary file, which outlasts the volume. */
     std::function<RuntimeVolume()> reopen;
+    const RuntimeVolume volume;
 
     std::mutex mutex;
     /** Of data from arrays. */

@@ -1,7 +1,7 @@
 /**
  * @file cache.hpp
- * Files that only save time: compiled shaders and pipelines. Losing them costs nothing but a slower start, so no failure here
- * is an error.
+ * Files that only save time: compiled shaders and pipelines, and converted volumes (core/convert/kept_volumes.hpp). Losing them
+ * costs nothing but a slower start, so no failure here is an error.
  */
 #pragma once
 

@@ -1,17 +1,33 @@
 #include <core/convert/request.hpp>
 
+#include <core/base/error.hpp>
 #include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/unknown_file.hpp>
 
 #include <memory>
 
 namespace elvis {
 
+namespace {
+
+std::shared_ptr<const Plugin> converter_of(const PluginRegistry& registry, const ConvertRequest& request) {
+    if (!request.plugin.empty()) {
+        return registry.find(request.plugin);
+    }
+    try {
+        return registry.converter_for(request.inputs.front());
+    } catch (const Error& error) {
+        throw unknown_file(registry, request.inputs.front(), error);
+    }
+}
+
+} // namespace
+
 ConvertReport convert(const ConvertRequest& request, const TaskControl& control,
                       const std::function<void(const std::string& id)>& on_plugin) {
     control.progress(-1, "finding the plugin");
     const PluginRegistry registry;
-    const std::shared_ptr<const Plugin> plugin =
-        request.plugin.empty() ? registry.converter_for(request.inputs.front()) : registry.find(request.plugin);
+    const std::shared_ptr<const Plugin> plugin = converter_of(registry, request);
     if (on_plugin) {
         on_plugin(plugin->id());
     }

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace elvis {
@@ -22,6 +24,7 @@ struct Plugin::Impl {
     std::optional<elvis_converter> converter;
     std::optional<elvis_extrema> extrema;
     std::optional<elvis_apex_bounds> apex_bounds;
+    std::vector<FileFormat> formats;
 };
 
 namespace {
@@ -82,6 +85,10 @@ const char* missing_function(const elvis_apex_bounds& table) {
     return table.get_field_apex_bounds ? nullptr : "get_field_apex_bounds";
 }
 
+const char* missing_function(const elvis_formats& table) {
+    return table.n_formats == 0 || table.formats != nullptr ? nullptr : "formats";
+}
+
 template <class Table>
 std::optional<Table> read_interface(const std::filesystem::path& library, const elvis_plugin_descriptor& descriptor,
                                     const char* id) {
@@ -94,6 +101,19 @@ std::optional<Table> read_interface(const std::filesystem::path& library, const 
         refuse(library, std::string("interface ") + id + " lacks the required function " + missing);
     }
     return table;
+}
+
+std::vector<FileFormat> formats_of(const elvis_formats& table) {
+    std::vector<FileFormat> formats;
+    for (std::uint32_t index = 0; index < table.n_formats; ++index) {
+        const elvis_file_format theirs = copy_entry(table.formats, index);
+        if (theirs.name == nullptr) {
+            continue;
+        }
+        std::istringstream endings(theirs.endings != nullptr ? theirs.endings : "");
+        formats.push_back({theirs.name, {std::istream_iterator<std::string>(endings), {}}});
+    }
+    return formats;
 }
 
 } // namespace
@@ -145,6 +165,9 @@ std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library)
     impl.converter = read_interface<elvis_converter>(library, descriptor, ELVIS_CONVERTER_INTERFACE);
     impl.extrema = read_interface<elvis_extrema>(library, descriptor, ELVIS_EXTREMA_INTERFACE);
     impl.apex_bounds = read_interface<elvis_apex_bounds>(library, descriptor, ELVIS_APEX_BOUNDS_INTERFACE);
+    if (const auto formats = read_interface<elvis_formats>(library, descriptor, ELVIS_FORMATS_INTERFACE)) {
+        impl.formats = formats_of(*formats);
+    }
     if (!impl.runtime && !impl.converter) {
         refuse(library, "offers neither " ELVIS_RUNTIME_INTERFACE " nor " ELVIS_CONVERTER_INTERFACE);
     }
@@ -192,6 +215,7 @@ const std::string& Plugin::version() const { return m_impl->version; }
 const std::string& Plugin::vendor() const { return m_impl->vendor; }
 const std::string& Plugin::description() const { return m_impl->description; }
 std::uint32_t Plugin::abi_version() const { return m_impl->abi_version; }
+const std::vector<FileFormat>& Plugin::formats() const { return m_impl->formats; }
 const elvis_runtime* Plugin::runtime() const { return m_impl->runtime ? &*m_impl->runtime : nullptr; }
 const elvis_converter* Plugin::converter() const { return m_impl->converter ? &*m_impl->converter : nullptr; }
 const elvis_extrema* Plugin::extrema() const { return m_impl->extrema ? &*m_impl->extrema : nullptr; }

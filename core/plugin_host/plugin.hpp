@@ -7,6 +7,7 @@
 #include <elvis/apex_bounds.h>
 #include <elvis/converter.h>
 #include <elvis/extrema.h>
+#include <elvis/formats.h>
 #include <elvis/plugin.h>
 #include <elvis/runtime.h>
 
@@ -16,6 +17,13 @@
 #include <vector>
 
 namespace elvis {
+
+/** What files of a plugin are called; see elvis/formats.h. */
+struct FileFormat {
+    std::string name;
+    /** With their dots; '#' is a digit. */
+    std::vector<std::string> endings;
+};
 
 /** A loaded library with a valid descriptor. Unloaded when the last shared_ptr (registry, volumes, sources) goes. */
 class Plugin {
@@ -42,6 +50,8 @@ public:
     const std::string& vendor() const;
     const std::string& description() const;
     std::uint32_t abi_version() const;
+    /** Empty if the plugin does not tell. */
+    const std::vector<FileFormat>& formats() const;
 
     /**
      * The interface tables, or null. They are copies of the size this host knows, with members beyond the plugin's own
@@ -85,7 +95,7 @@ public:
     /** The plugin with this id; Error that lists the ids if there is none. */
     std::shared_ptr<const Plugin> find(const std::string& id) const;
 
-    /** The runtime plugin most sure of the file, or an Error that says what each one answered. Missing file: Error. */
+    /** The runtime plugin most sure of the file, or an Error that says what those answered that failed. Missing file: Error. */
     std::shared_ptr<const Plugin> runtime_for(const std::string& path) const;
     /** The conversion plugin most sure of the file. */
     std::shared_ptr<const Plugin> converter_for(const std::string& path) const;

@@ -36,7 +36,8 @@ std::shared_ptr<const Plugin> most_confident(const std::vector<std::shared_ptr<c
     }
     std::shared_ptr<const Plugin> best;
     std::uint32_t best_confidence = 0;
-    std::string answers;
+    int n_asked = 0;
+    std::string complaints;
     for (const auto& plugin : plugins) {
         const Probe probe = probe_of(*plugin);
         if (!probe) {
@@ -47,9 +48,10 @@ std::shared_ptr<const Plugin> most_confident(const std::vector<std::shared_ptr<c
         services.begin("probe");
         try {
             services.check(probe(services.table(), path.c_str(), &confidence), "probe", path);
-            answers += "\n  " + plugin->id() + ": " + (confidence ? "perhaps" : "no");
+            ++n_asked;
         } catch (const Error& error) {
-            answers += "\n  " + plugin->id() + ": " + error.what();
+            ++n_asked;
+            complaints += "\n  " + plugin->id() + ": " + error.what();
             confidence = 0;
         }
         if (confidence > best_confidence) {
@@ -58,8 +60,8 @@ std::shared_ptr<const Plugin> most_confident(const std::vector<std::shared_ptr<c
         }
     }
     if (!best) {
-        throw Error(path, std::string("no ") + kind + " plugin reads this file" +
-                              (answers.empty() ? "; none was found" : "; asked were:" + answers));
+        throw Error(path,
+                    std::string("no ") + kind + " plugin reads this file" + (n_asked == 0 ? "; none was found" : complaints));
     }
     return best;
 }

@@ -44,6 +44,11 @@ SceneCamera read_camera(const JsonObject& object) {
 
 void read_volume(const JsonObject& volume, const std::string& path, Scene& scene) {
     scene.volume = beside(path, volume.text("path"));
+    if (volume.has("more_paths")) {
+        for (const std::string& more : volume.texts("more_paths")) {
+            scene.more_files.push_back(beside(path, more));
+        }
+    }
     if (volume.has("plugin")) {
         scene.plugin = volume.text("plugin");
     }

@@ -134,6 +134,8 @@ std::optional<Integrator> integrator_named(const std::string& name);
 
 struct Scene {
     std::string volume;
+    /** Further files of the same foreign data set. */
+    std::vector<std::string> more_files;
     std::string plugin;
     /** JSON text, or empty. */
     std::string plugin_options;

@@ -143,6 +143,13 @@ private:
 } // namespace
 } // namespace elvis::analytic
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Analytic fields", ".txt")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.analytic", .name = "Analytic fields", .version = "1.0.0", .vendor = "ElVis",
              .description = "Draws closed-form fields on hexahedra given as text",
-             .runtime = elvis::api::runtime_table<elvis::analytic::Volume>());
+             .runtime = elvis::api::runtime_table<elvis::analytic::Volume>(), .formats = &formats_table);

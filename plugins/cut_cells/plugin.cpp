@@ -330,6 +330,13 @@ private:
 } // namespace
 } // namespace elvis::cut_cells
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Cut cells", ".cut")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.cut-cells", .name = "Cut cells", .version = "1.0.0", .vendor = "ElVis",
              .description = "Draws cells of Cartesian grids that a level set cuts, with discontinuous fields, from text",
-             .runtime = elvis::api::runtime_table<elvis::cut_cells::Volume>());
+             .runtime = elvis::api::runtime_table<elvis::cut_cells::Volume>(), .formats = &formats_table);

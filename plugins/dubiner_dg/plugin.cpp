@@ -327,6 +327,13 @@ private:
 } // namespace
 } // namespace elvis::dubiner
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Dubiner DG", ".ddg")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.dubiner-dg", .name = "Dubiner DG", .version = "1.0.0", .vendor = "ElVis",
              .description = "Draws modal discontinuous Galerkin solutions on curved tetrahedra in Dubiner's basis",
-             .runtime = elvis::api::runtime_table<elvis::dubiner::Volume>());
+             .runtime = elvis::api::runtime_table<elvis::dubiner::Volume>(), .formats = &formats_table);

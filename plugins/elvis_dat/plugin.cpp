@@ -92,7 +92,14 @@ private:
 
 } // namespace
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Volume of the original ElVis", ".dat")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.dat", .name = "ElVis volume reader", .version = "1.0.0", .vendor = "ElVis",
              .description =
                  "Converts volumes (.dat) of the original ElVis: hexahedra and prisms with modal Jacobi coefficients.",
-             .converter = elvis::api::converter_table<Source>());
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);

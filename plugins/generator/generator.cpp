@@ -158,6 +158,13 @@ private:
 } // namespace
 } // namespace generator
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Generator", ".json")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.generator", .name = "Generator", .version = "1.0.0", .vendor = "ElVis",
              .description = "Analytic fields on meshes of every shape and order, described by a small JSON file",
-             .converter = elvis::api::converter_table<generator::Source>());
+             .converter = elvis::api::converter_table<generator::Source>(), .formats = &formats_table);

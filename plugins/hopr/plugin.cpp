@@ -130,8 +130,12 @@ private:
     elvis::nodal::ElementBlocks m_blocks;
 };
 
+constexpr elvis_file_format formats[] = {elvis::api::file_format("FLEXI, GALAEXI, PICLas: state", ".h5"),
+                                         elvis::api::file_format("HOPR mesh", ".h5")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
 } // namespace
 
 ELVIS_PLUGIN(.id = "org.elvis.hopr", .name = "HOPR reader", .version = "1.0.0", .vendor = "ElVis",
              .description = "Converts HOPR meshes and states of FLEXI, GALAEXI and PICLas (HDF5).",
-             .converter = elvis::api::converter_table<Source>());
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);

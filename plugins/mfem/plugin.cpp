@@ -208,6 +208,15 @@ private:
 
 } // namespace
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("MFEM mesh", ".mesh"),
+                                         elvis::api::file_format("MFEM grid function, after its mesh", ".gf"),
+                                         elvis::api::file_format("MFEM VisIt collection", ".mfem_root")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.mfem", .name = "MFEM reader", .version = "1.0.0", .vendor = "ElVis",
              .description = "Converts meshes and grid functions of MFEM: H1, L2, Nedelec, Raviart-Thomas and NURBS fields.",
-             .converter = elvis::api::converter_table<Source>());
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);

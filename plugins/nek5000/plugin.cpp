@@ -113,6 +113,14 @@ private:
 
 } // namespace
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("Nek5000, NekRS, Neko: list of steps", ".nek5000"),
+                                         elvis::api::file_format("Nek5000, NekRS, Neko: step", ".f##### .fld##")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.nek5000", .name = "Nek5000 reader", .version = "1.0.0", .vendor = "ElVis",
              .description = "Converts field files of Nek5000, NekRS and Neko (.f00001, .fld01, .nek5000).",
-             .converter = elvis::api::converter_table<Source>());
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);

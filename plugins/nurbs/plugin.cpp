@@ -297,6 +297,13 @@ private:
 } // namespace
 } // namespace elvis::nurbs
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("NURBS volume", ".nurbs")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.nurbs", .name = "NURBS volumes", .version = "1.0.0", .vendor = "ElVis",
              .description = "Draws isogeometric volumes: rational B-splines of any continuity, from text",
-             .runtime = elvis::api::runtime_table<elvis::nurbs::Volume>());
+             .runtime = elvis::api::runtime_table<elvis::nurbs::Volume>(), .formats = &formats_table);

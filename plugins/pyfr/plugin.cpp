@@ -163,8 +163,12 @@ private:
     elvis::nodal::ElementBlocks m_blocks;
 };
 
+constexpr elvis_file_format formats[] = {elvis::api::file_format("PyFR solution", ".pyfrs"),
+                                         elvis::api::file_format("PyFR mesh", ".pyfrm")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
 } // namespace
 
 ELVIS_PLUGIN(.id = "org.elvis.pyfr", .name = "PyFR reader", .version = "1.0.0", .vendor = "ElVis",
              .description = "Converts meshes and solutions of PyFR (.pyfrm, .pyfrs).",
-             .converter = elvis::api::converter_table<Source>());
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);

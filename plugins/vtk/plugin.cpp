@@ -189,7 +189,16 @@ private:
 
 } // namespace
 
+namespace {
+
+constexpr elvis_file_format formats[] = {elvis::api::file_format("VTK XML unstructured grid", ".vtu .pvtu"),
+                                         elvis::api::file_format("ParaView time steps", ".pvd"),
+                                         elvis::api::file_format("VTKHDF", ".vtkhdf .hdf")};
+constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
+
+} // namespace
+
 ELVIS_PLUGIN(.id = "org.elvis.vtk", .name = "VTK reader", .version = "1.0.0", .vendor = "ElVis",
              .description = "Converts VTK's unstructured grids (.vtu, .pvtu, .pvd, .vtkhdf): linear, quadratic, Lagrange and "
                             "Bezier cells.",
-             .converter = elvis::api::converter_table<Source>());
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);

@@ -318,7 +318,6 @@ constexpr BadCommand bad_commands[] = {
     {"render ball.h5 --boundary all -o x.png", 1, "Without a name, the whole boundary is drawn"},
     {"render missing.h5 -o x.png", 1, "missing.h5"},
     {"render not_a_volume.h5 -o x.png", 1, "not_a_volume.h5"},
-    {"render ball.json -o x.png", 1, "elvis convert"},
     {"render ball.h5 --field temperature -o x.png", 1, "sphere"},
     {"render ball.h5 --field 'sphere[3]' -o x.png", 1, "components"},
     {"render ball.h5 --field 'norm(curl(velocty))' -o x.png", 1,

@@ -154,7 +154,8 @@ TEST_CASE("Null pointers, unknown fields and files are errors with a text") {
     CHECK_THROWS_WITH(data.probe({0, 0, 0}, {"q"}), Contains("q"));
     CHECK_THROWS_WITH(data.probe({0, 0, 0}, {"p"}, 3), Contains("time step"));
     CHECK_THROWS_WITH(data.range("p+"), !Contains("std::"));
-    CHECK_THROWS_WITH(context.open(folder.path("input.json")), Contains("convert"));
+    CHECK_THROWS_WITH(context.open(folder.write("none.txt", "no volume")), Contains("no conversion plugin reads this file"));
+    CHECK_THROWS_WITH(context.open(std::vector<std::string>{}), Contains("paths: there are none"));
     CHECK_THROWS_WITH(context.read_scene(folder.path("none.json")), Contains("none.json"));
     elvis_context_release(nullptr);
     elvis_data_release(nullptr);

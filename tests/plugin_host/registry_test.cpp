@@ -104,11 +104,11 @@ TEST_CASE("the plugin that is surest of a file serves it") {
     CHECK(fixtures.registry.converter_for(tetrahedron)->id() == "org.elvis.test.good");
 }
 
-TEST_CASE("a file that no plugin reads is answered with what each one said, broken probes included") {
+TEST_CASE("a file that no plugin reads is answered with what broken probes said, and no list of the others") {
     const Fixtures fixtures;
     const std::string with_text = fixtures.home.write("probe-with-text", "");
     CHECK_THAT(error_of([&] { fixtures.registry.runtime_for(with_text); }),
-               Contains("no runtime plugin") && Contains("org.elvis.test.good: no") &&
+               Contains("no runtime plugin") && !Contains("org.elvis.test.good") &&
                    Contains("org.elvis.test.troubled: " + with_text + ": byte 0: the probe broke"));
     const std::string without_text = fixtures.home.write("probe-without-text", "");
     CHECK_THAT(error_of([&] { fixtures.registry.runtime_for(without_text); }),

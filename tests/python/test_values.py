@@ -44,9 +44,13 @@ class Values(WithVolume):
         self.assertGreater(len(elvis.devices()), 0)
         self.assertIn("org.elvis.native", [plugin["id"] for plugin in elvis.plugins()["plugins"]])
 
+    def test_a_foreign_file_is_opened_as_it_is(self):
+        for files in (self.path("input.json"), [self.path("input.json")]):
+            self.assertEqual(elvis.open(files).n_elements, self.volume.n_elements)
+
     def test_errors_are_those_of_the_launcher(self):
         for wrong, text in [(lambda: elvis.open("nothing.h5"), "nothing.h5: there is no such file"),
-                            (lambda: elvis.open(self.path("input.json")), "elvis convert"),
+                            (lambda: elvis.open(__file__), "no conversion plugin reads this file"),
                             (lambda: self.volume.probe([[0, 0, 0]], "q"), "q"),
                             (lambda: self.volume.range("p", 4), "time step"),
                             (lambda: elvis.convert(self.path("nothing"), self.path("x.h5")), "nothing")]:

@@ -2,6 +2,7 @@
 #include <apps/elvis/commands.hpp>
 
 #include <core/base/error.hpp>
+#include <core/session/open_volume.hpp>
 
 #include <algorithm>
 #include <cstdarg>
@@ -66,7 +67,14 @@ void run_drawing_suites(const BenchArguments& arguments, nlohmann::ordered_json&
     }
 }
 
-void run(const BenchArguments& arguments) {
+/** The one that --volume names: its plugin's own file, or what a conversion made of it. */
+VolumeFile volume_file(const BenchArguments& arguments) {
+    return arguments.volume.empty() ? VolumeFile{} : find_volume(PluginRegistry(), {arguments.volume}, {}, {}, {});
+}
+
+void run(BenchArguments arguments) {
+    const VolumeFile volume = volume_file(arguments);
+    arguments.volume = volume.path;
     nlohmann::ordered_json root;
     const auto is_wanted = [&](const char* suite) { return arguments.suite == "all" || arguments.suite == suite; };
     if (is_wanted("hierarchy")) {
@@ -166,7 +174,7 @@ void add_bench(CLI::App& app) {
     command->add_flag("--json", arguments->json, "Answer in JSON");
     command->add_option(
         "--volume", arguments->volume,
-        "A native volume for the suites projection, combined, interface and kernels, in place of the waves, mfem, "
+        "A volume of any format for the suites projection, combined, interface and kernels, in place of the waves, mfem, "
         "goals and volume-convergence");
     command->add_option("--shapes", arguments->shapes, "Of the suite kernels: hexahedron, prism, pyramid, tetrahedron")
         ->delimiter(',')

@@ -26,6 +26,10 @@ void print_json(const PluginRegistry& registry) {
         if (plugin->converter()) {
             interfaces.push_back(ELVIS_CONVERTER_INTERFACE);
         }
+        nlohmann::ordered_json formats = nlohmann::ordered_json::array();
+        for (const FileFormat& format : plugin->formats()) {
+            formats.push_back({{"name", format.name}, {"endings", format.endings}});
+        }
         root["plugins"].push_back({{"id", plugin->id()},
                                    {"name", plugin->name()},
                                    {"version", plugin->version()},
@@ -33,6 +37,7 @@ void print_json(const PluginRegistry& registry) {
                                    {"description", plugin->description()},
                                    {"abi_version", abi_version_text(plugin->abi_version())},
                                    {"interfaces", interfaces},
+                                   {"formats", formats},
                                    {"library", plugin->library().string()}});
     }
     root["refused"] = nlohmann::ordered_json::array();
@@ -40,6 +45,15 @@ void print_json(const PluginRegistry& registry) {
         root["refused"].push_back({{"library", refused.library.string()}, {"reason", refused.reason}});
     }
     std::printf("%s\n", root.dump(2).c_str());
+}
+
+/** "*.nek5000, *.f#####": '#' is a digit. */
+std::string endings_text(const FileFormat& format) {
+    std::string text;
+    for (const std::string& ending : format.endings) {
+        text += (text.empty() ? "*" : ", *") + ending;
+    }
+    return text.empty() ? "any name" : text;
 }
 
 void print_table(const PluginRegistry& registry) {
@@ -50,6 +64,9 @@ void print_table(const PluginRegistry& registry) {
                     abi_version_text(plugin->abi_version()).c_str());
         if (!plugin->description().empty()) {
             std::printf("    %s\n", plugin->description().c_str());
+        }
+        for (const FileFormat& format : plugin->formats()) {
+            std::printf("    reads %s: %s\n", format.name.c_str(), endings_text(format).c_str());
         }
         std::printf("    %s\n", plugin->library().c_str());
     }

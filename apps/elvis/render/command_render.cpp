@@ -42,7 +42,9 @@ CLI::Validator finite_number() {
 }
 
 void add_surfaces(CLI::App& command, RenderArguments& a) {
-    command.add_option("input", a.inputs, "Scene file (JSON) or volume; of several scenes a picture each");
+    command.add_option("input", a.inputs,
+                       "Scene file (JSON), or volume, whatever its format (geometry first, then field files); of several "
+                       "scenes a picture each");
     command.add_option("-o,--output", a.output,
                        "Picture to write (PNG), or folder for those of an animation or of several scenes");
     command.add_option("--field", a.field,

@@ -18,6 +18,8 @@ struct RenderArguments {
     /** As given; and the one that is drawn. */
     std::vector<std::string> inputs;
     std::string input;
+    /** Further files of the same foreign data set. */
+    std::vector<std::string> more_inputs;
     /** What is drawn is a scene file, not a volume. */
     bool is_scene = false;
     std::string output;

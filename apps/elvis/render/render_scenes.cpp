@@ -9,6 +9,7 @@
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/base/output_file.hpp>
+#include <core/scene/scene.hpp>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -73,6 +74,9 @@ scene scene_of(const context& library, const RenderArguments& arguments) {
     }
     scene made = library.make_scene();
     made.set("/volume/path", json(arguments.input).dump());
+    if (!arguments.more_inputs.empty()) {
+        made.set("/volume/more_paths", json(arguments.more_inputs).dump());
+    }
     return made;
 }
 
@@ -88,7 +92,7 @@ Wanted read_wanted(const context& library, const RenderArguments& all, const std
     apply_options(arguments, shown);
     const bool is_animation = json::parse(shown.json()).contains("animation");
     Wanted wanted{std::move(arguments), std::move(shown), is_animation};
-    if (all.inputs.size() > 1) {
+    if (all.inputs.size() > 1 && wanted.arguments.is_scene) {
         choose_names(wanted);
     }
     if (is_animation) {
@@ -99,6 +103,19 @@ Wanted read_wanted(const context& library, const RenderArguments& all, const std
         throw Error(input, "'volume' is missing");
     }
     return wanted;
+}
+
+/** Several files that are one foreign data set. */
+Wanted read_data_set(const context& library, RenderArguments arguments) {
+    for (const std::string& input : arguments.inputs) {
+        if (::elvis::is_scene(input)) {
+            throw UsageError("render", "'" + input + "' is a scene, and '" + arguments.inputs.front() +
+                                           "' before it is none: files of one data set, or scenes, are drawn together");
+        }
+    }
+    const std::string first = arguments.inputs.front();
+    arguments.more_inputs.assign(arguments.inputs.begin() + 1, arguments.inputs.end());
+    return read_wanted(library, arguments, first);
 }
 
 /** Throws unless all are scenes whose files are not each other's. */
@@ -118,10 +135,14 @@ void check_inputs(const context& library, const RenderArguments& arguments) {
 }
 
 std::vector<Wanted> read_all(const context& library, const RenderArguments& arguments) {
+    std::vector<Wanted> all;
+    if (arguments.inputs.size() > 1 && !is_scene(library, arguments.inputs.front())) {
+        all.push_back(read_data_set(library, arguments));
+        return all;
+    }
     if (arguments.inputs.size() > 1) {
         check_inputs(library, arguments);
     }
-    std::vector<Wanted> all;
     for (const std::string& input : arguments.inputs) {
         all.push_back(read_wanted(library, arguments, input));
     }
@@ -180,7 +201,7 @@ void render_picture(const Wanted& wanted, const data& volume, double load_millis
 }
 
 void render_one(Wanted& wanted, RenderSession& session, const task& watch, Clock::time_point start) {
-    const data& volume = session.open(wanted.shown, watch);
+    const data& volume = session.open(wanted.shown);
     choose_range(wanted, volume, watch);
     if (wanted.is_animation) {
         render_animation(wanted.arguments, wanted.shown, volume, session.library());

@@ -19,7 +19,7 @@ public:
     explicit RenderSession(const context& library) : m_library(library) {}
 
     /** Opens the scene's volume unless it is open. What was opened before is gone if it is another. */
-    data& open(const scene& shown, const task& watch);
+    data& open(const scene& shown);
     const context& library() const { return m_library; }
     /** What opening the volume took; 0 if it was open. */
     double load_milliseconds() const { return m_load_milliseconds; }
@@ -27,7 +27,7 @@ public:
 private:
     context m_library;
     std::optional<data> m_data;
-    /** Path, plugin and options of what is open. */
+    /** Files, plugin and options of what is open. */
     std::string m_key;
     double m_load_milliseconds = 0;
 };

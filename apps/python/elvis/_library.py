@@ -18,7 +18,7 @@ def set_up(device: str | int = "", plugin_path: Sequence[str | os.PathLike] | No
 
     device: index, or part of the name, of a Vulkan device; "" is $ELVIS_DEVICE, else the best.
     plugin_path: folders of plugins; None is $ELVIS_PLUGIN_PATH and those of the installation.
-    cache_folder: where compiled kernels are kept; "" is nowhere, None $ELVIS_CACHE_PATH, else ~/.cache/elvis.
+    cache_folder: where compiled kernels and converted volumes are kept; "" is nowhere, None $ELVIS_CACHE_PATH, else ~/.cache/elvis.
     """
     global _context
     _settings["device"] = str(device)

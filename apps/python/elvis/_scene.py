@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ._library import context
 from ._picture import Picture
+from ._progress import progress_for
 from .scene_objects import SceneKeys
 
 if TYPE_CHECKING:
@@ -57,13 +58,14 @@ class Scene(SceneKeys):
 
     def _volume(self) -> Volume:
         if self._shown is None:
-            from ._volume import open as open_volume
+            from ._volume import Volume
 
             path = context().scene_volume(self.to_json(), self._folder)
             if not path:
                 raise ValueError("the scene names no volume: set scene.volume.path, or draw it by Volume.render")
-            file = self.volume
-            object.__setattr__(self, "_shown", open_volume(path, plugin=file.plugin or "", options=file.options))
+            with progress_for(True) as report:
+                handle = context().open_scene_volume(self.to_json(), self._folder, report)
+            object.__setattr__(self, "_shown", Volume(handle, path))
         return self._shown
 
     def _repr_png_(self) -> bytes:

@@ -207,13 +207,14 @@ class Volume:
         return f"<Volume {self.path}: {self.n_elements} elements, fields {', '.join(self.fields)}>"
 
 
-def open(path: str | os.PathLike, *, plugin: str = "", options: dict[str, Any] | None = None,
+def open(path: str | os.PathLike | list[str | os.PathLike], *, plugin: str = "", options: dict[str, Any] | None = None,
          progress: Progress = True) -> Volume:
     """Opens a volume.
 
-    plugin: id of the runtime plugin; "" is the one surest of the file. options: of the plugin. A foreign file is to be converted
-    first (elvis.convert).
+    path: its file; a list are the files of one foreign data set, geometry first. A foreign file is converted, and the conversion
+    kept in the cache. plugin: id of the plugin; "" is the one surest of the file. options: of the plugin.
     """
+    paths = [os.fspath(file) for file in (path if isinstance(path, list) else [path])]
     with progress_for(progress) as report:
-        handle = context().open(os.fspath(path), plugin, json.dumps(options) if options else "", report)
-    return Volume(handle, os.fspath(path))
+        handle = context().open(paths, plugin, json.dumps(options) if options else "", report)
+    return Volume(handle, paths[0])

@@ -30,6 +30,9 @@ SceneJson camera_json(const SceneCamera& camera) {
 SceneJson volume_json(const Scene& scene, const std::string& path) {
     SceneJson json;
     json["path"] = seen_from(path, scene.volume);
+    for (const std::string& more : scene.more_files) {
+        json["more_paths"].push_back(seen_from(path, more));
+    }
     if (!scene.plugin.empty()) {
         json["plugin"] = scene.plugin;
     }

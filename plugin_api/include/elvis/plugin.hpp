@@ -26,6 +26,7 @@
 #include "apex_bounds.h"
 #include "converter.h"
 #include "extrema.h"
+#include "formats.h"
 #include "plugin.h"
 #include "runtime.h"
 
@@ -493,6 +494,16 @@ template <class Source> const elvis_converter* converter_table() {
     return &table;
 }
 
+/** Draft. An entry of elvis/formats.h. */
+constexpr elvis_file_format file_format(const char* name, const char* endings) {
+    return {sizeof(elvis_file_format), 0, name, endings};
+}
+
+/** Draft. The table of elvis/formats.h, of a list that lasts as long as the plugin. */
+template <std::size_t n> constexpr elvis_formats formats_table(const elvis_file_format (&formats)[n]) {
+    return {sizeof(elvis_formats), n, formats};
+}
+
 /** What ELVIS_PLUGIN takes; see elvis_plugin_descriptor. */
 struct Description {
     const char* id;
@@ -504,6 +515,7 @@ struct Description {
     const elvis_converter* converter = nullptr;
     const elvis_extrema* extrema = nullptr;
     const elvis_apex_bounds* apex_bounds = nullptr;
+    const elvis_formats* formats = nullptr;
 };
 
 } // namespace elvis::api
@@ -532,6 +544,9 @@ struct Description {
                                                             }                                                                  \
                                                             if (wanted == ELVIS_APEX_BOUNDS_INTERFACE) {                       \
                                                                 return description.apex_bounds;                                \
+                                                            }                                                                  \
+                                                            if (wanted == ELVIS_FORMATS_INTERFACE) {                           \
+                                                                return description.formats;                                    \
                                                             }                                                                  \
                                                             return nullptr;                                                    \
                                                         }};                                                                    \

@@ -33,13 +33,18 @@ bool Session::is_foreign(const std::string& path) const {
 }
 
 VolumeFacts Session::open(const Scene& scene) {
-    std::string key = scene.volume;
+    std::vector<std::string> files{scene.volume};
+    files.insert(files.end(), scene.more_files.begin(), scene.more_files.end());
+    std::string key;
+    for (const std::string& file : files) {
+        key += file + '\n';
+    }
     key += '\n' + scene.plugin + '\n' + scene.plugin_options;
     if (!m_data || key != m_key) {
         if (scene.volume.empty()) {
             throw Error("the scene names no volume");
         }
-        data opened = m_library.open(scene.volume, scene.plugin, scene.plugin_options);
+        data opened = m_library.open(files, scene.plugin, scene.plugin_options);
         opened.prepare(library_scene(scene));
         m_data = std::move(opened);
         m_key = std::move(key);

@@ -57,16 +57,29 @@ void Workbench::open(const std::string& path) {
     }
 }
 
-void Workbench::open_scene(Scene scene, const std::string& file, const std::string& path) {
+void Workbench::open_files(const std::vector<std::string>& paths) {
+    if (paths.size() == 1 && (!std::filesystem::exists(paths.front()) || is_scene(paths.front()))) {
+        open(paths.front());
+        return;
+    }
+    Scene scene;
+    scene.volume = paths.front();
+    scene.more_files.assign(paths.begin() + 1, paths.end());
+    open_scene(std::move(scene), {}, paths.front(), false);
+}
+
+void Workbench::open_scene(Scene scene, const std::string& file, const std::string& path, bool asks) {
     scene.size = file.empty() ? m_model.scene().size : scene.size;
-    const auto job = [this, scene = std::move(scene), file, path](Session& session) mutable -> FrameWorker::Answer {
-        if (file.empty() && session.is_foreign(path)) {
+    const auto job = [this, scene = std::move(scene), file, path, asks](Session& session) mutable -> FrameWorker::Answer {
+        if (asks && file.empty() && session.is_foreign(path)) {
             return [this, path] { foreign_file = path; };
         }
         VolumeFacts facts = session.open(scene);
         if (file.empty()) {
             const std::array<std::uint32_t, 2> size = scene.size;
+            std::vector<std::string> more_files = std::move(scene.more_files);
             scene = session.first_scene(path);
+            scene.more_files = std::move(more_files);
             scene.size = size;
         }
         return [this, scene = std::move(scene), facts = std::move(facts), file, path]() mutable {

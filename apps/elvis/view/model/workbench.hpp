@@ -47,6 +47,8 @@ public:
 
     /** A volume, a scene, or a foreign file, for which a conversion is then offered. */
     void open(const std::string& path);
+    /** What the command line names: foreign files are converted into the cache without a question. */
+    void open_files(const std::vector<std::string>& paths);
     void save_scene(const std::string& path);
     void save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits);
     /** What is seen at a place of the picture. */
@@ -98,7 +100,8 @@ public:
 private:
     /** Adds the values at some more points to a histogram, and then asks for more. */
     void sample(const std::optional<std::string>& field, const std::string& key, unsigned piece);
-    void open_scene(Scene scene, const std::string& file, const std::string& path);
+    /** `asks`: before a foreign file is converted. */
+    void open_scene(Scene scene, const std::string& file, const std::string& path, bool asks = true);
     std::string field_key(const std::optional<std::string>& field) const;
     void take(DrawAnswer answer, double showing_milliseconds);
     void take(const ConversionResult& result);

@@ -41,8 +41,8 @@ public:
             m_settings.add_recent(path);
             write_settings(m_settings, settings_file());
         };
-        if (!options.file.empty()) {
-            m_bench.open(options.file);
+        if (!options.files.empty()) {
+            m_bench.open_files(options.files);
         }
     }
 

@@ -7,12 +7,13 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace elvis::view {
 
 struct Options {
-    /** A volume, scene or foreign file to open; may be empty. */
-    std::string file;
+    /** A scene, or the files of a volume; may be empty. */
+    std::vector<std::string> files;
     std::string device;
     std::optional<std::array<int, 2>> size;
     /** Times what the screen asks for; 0: as last time. */

@@ -103,7 +103,7 @@ typedef struct elvis_context_options {
      * elvis/plugins beside the library. "": none.
      */
     elvis_string plugin_path;
-    /** Where compiled kernels are kept. NULL: $ELVIS_CACHE_PATH, else ~/.cache/elvis. "": nowhere. */
+    /** Where compiled kernels and converted volumes are kept. NULL: $ELVIS_CACHE_PATH, else ~/.cache/elvis. "": nowhere. */
     elvis_string cache_folder;
     /** May be NULL: then no one is told. Called with each line of the log, from any thread, also from several at once. */
     void (*log)(void* user, elvis_log_level level, elvis_string line);
@@ -139,7 +139,10 @@ ELVIS_EXPORT elvis_result elvis_context_describe_device(elvis_context* context, 
  */
 ELVIS_EXPORT elvis_result elvis_context_describe_file(elvis_context* context, elvis_string path, char** text);
 
-/** JSON object with `plugins` (id, name, version, library, kinds) and `refused` (library, reason). */
+/**
+ * JSON object with `plugins` (id, name, version, library, kinds, and `formats`: of each name and endings of the files it reads)
+ * and `refused` (library, reason).
+ */
 ELVIS_EXPORT elvis_result elvis_context_list_plugins(elvis_context* context, char** text);
 
 /* ---- Data -------------------------------------------------------------------------------------------------------------- */
@@ -148,11 +151,23 @@ ELVIS_EXPORT elvis_result elvis_context_list_plugins(elvis_context* context, cha
 typedef struct elvis_data elvis_data;
 
 /**
- * Opens a volume file with the runtime plugin of id `plugin`, or with the one surest of the file if NULL. `options` is a JSON
- * object for the plugin, or NULL. Released by elvis_data_release.
+ * Opens a volume file with the plugin of id `plugin`, or with the one surest of the file if NULL. `options` is a JSON object
+ * for the plugin, or NULL. Released by elvis_data_release.
+ *
+ * A foreign file, which no runtime plugin opens, is converted; the native volume is kept in the cache and taken from there
+ * until a file of the data set changes. A line of the log says so when it is made, and each time how large the residual is if
+ * the conversion is not exact. Without a cache the volume lies in a temporary folder that goes with the data.
  */
 ELVIS_EXPORT elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_string plugin, elvis_string options,
                                           const elvis_task* task, elvis_data** data);
+
+/**
+ * The same of a foreign data set of several files, as elvis_convert takes them: geometry first, then fields, then time steps.
+ * One file: elvis_data_open.
+ */
+ELVIS_EXPORT elvis_result elvis_data_open_files(elvis_context* context, const elvis_string* paths, uint32_t n_paths,
+                                                elvis_string plugin, elvis_string options, const elvis_task* task,
+                                                elvis_data** data);
 
 /**
  * A volume that the program itself serves: nothing is copied but what fill_buffer gives. `runtime` is a table as a plugin has
@@ -320,7 +335,7 @@ typedef struct elvis_scene elvis_scene;
 
 /** A scene that says nothing: data is shown as `elvis render FILE` does. Released by elvis_scene_release. */
 ELVIS_EXPORT elvis_result elvis_scene_create(elvis_context* context, elvis_scene** scene);
-/** Reads a scene file. Its volume is not opened: see elvis_scene_get_volume. */
+/** Reads a scene file. Its volume is not opened: see elvis_scene_open_volume. */
 ELVIS_EXPORT elvis_result elvis_scene_read(elvis_context* context, elvis_string path, elvis_scene** scene);
 /** The same of a text; files that it names are seen from `folder`, NULL: from the working directory. */
 ELVIS_EXPORT elvis_result elvis_scene_parse(elvis_context* context, elvis_string text, elvis_string folder,
@@ -340,6 +355,8 @@ ELVIS_EXPORT elvis_result elvis_scene_get(const elvis_scene* scene, elvis_string
 ELVIS_EXPORT elvis_result elvis_scene_write(const elvis_scene* scene, elvis_string path);
 /** Path of the scene's volume as seen from the working directory; "" if it names none. */
 ELVIS_EXPORT elvis_result elvis_scene_get_volume(const elvis_scene* scene, char** path);
+/** Opens what the scene's `volume` says, as elvis_data_open_files does. ELVIS_ERROR_INVALID_ARGUMENT if it names none. */
+ELVIS_EXPORT elvis_result elvis_scene_open_volume(const elvis_scene* scene, const elvis_task* task, elvis_data** data);
 /**
  * Another scene, in which what this one leaves open is said: the camera, and the surfaces if it shows nothing; as it is drawn
  * of the data. Released by elvis_scene_release.

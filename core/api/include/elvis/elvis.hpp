@@ -129,6 +129,8 @@ public:
         check(elvis_scene_get_volume(get(), &path));
         return detail::taken(path);
     }
+    /** The volume that it names. */
+    inline data open_volume(const task& watch = {}) const;
     void write(const std::string& path) const { check(elvis_scene_write(get(), path.c_str())); }
     elvis_scene* get() const { return m_handle.get(); }
 
@@ -393,6 +395,13 @@ private:
     std::unique_ptr<elvis_data, detail::release> m_handle;
 };
 
+inline data scene::open_volume(const task& watch) const {
+    elvis_data* opened = nullptr;
+    const elvis_task c_watch = detail::c_task(watch);
+    check(elvis_scene_open_volume(get(), &c_watch, &opened));
+    return {m_context, opened};
+}
+
 inline scene scene::completed(const data& shown) const {
     elvis_scene* complete = nullptr;
     check(elvis_scene_complete(get(), shown.get(), &complete));
@@ -413,6 +422,19 @@ public:
         elvis_data* opened = nullptr;
         const elvis_task c_watch = detail::c_task(watch);
         check(elvis_data_open(get(), path.c_str(), detail::or_null(plugin), detail::or_null(options), &c_watch, &opened));
+        return {m_handle, opened};
+    }
+    /** A foreign data set of several files. */
+    data open(const std::vector<std::string>& paths, const std::string& plugin = {}, const std::string& options = {},
+              const task& watch = {}) const {
+        std::vector<elvis_string> texts;
+        for (const std::string& path : paths) {
+            texts.push_back(path.c_str());
+        }
+        elvis_data* opened = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_open_files(get(), texts.data(), static_cast<std::uint32_t>(texts.size()), detail::or_null(plugin),
+                                    detail::or_null(options), &c_watch, &opened));
         return {m_handle, opened};
     }
     data from_runtime(const elvis_runtime& runtime, elvis_volume* volume, const std::string& name = "volume") const {
