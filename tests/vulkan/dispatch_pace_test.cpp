@@ -77,3 +77,19 @@ TEST_CASE("The compilation that a driver hides in the first part is no measure")
     pace.took(first, 3000);
     CHECK(pace.next(1000000) >= first);
 }
+
+TEST_CASE("Of what is submitted together parts take longer, and a first submission of unknown cost has small ones") {
+    DispatchPace pace(1024, DispatchPace::wanted_collected_milliseconds);
+    // Times become known when all have been submitted.
+    for (std::uint64_t left = 100000; left > 0;) {
+        const std::uint64_t n = pace.next(left);
+        REQUIRE(n <= 1024);
+        left -= n;
+    }
+    for (int submission = 0; submission < 8; ++submission) {
+        const std::uint64_t n = pace.next(1000000);
+        pace.took(n, 0.01 * static_cast<double>(n));
+    }
+    CHECK(static_cast<double>(pace.next(1000000)) * 0.01 > 0.9 * DispatchPace::wanted_collected_milliseconds);
+    CHECK(static_cast<double>(pace.next(1000000)) * 0.01 < 1.1 * DispatchPace::wanted_collected_milliseconds);
+}

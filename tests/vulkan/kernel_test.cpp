@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -78,6 +79,33 @@ TEST_CASE("A kernel reads its bindings and push constants, and validation has no
             REQUIRE(number == 0);
         }
         test.kernel.dispatch(chained, std::as_bytes(std::span(&scale, 1)), 0);
+    }
+    CHECK(device.validation_messages() == std::vector<std::string>{});
+}
+
+TEST_CASE("A dispatch has the size that an earlier kernel wrote, and small buffers are read together") {
+    DeviceOptions options;
+    options.validation = true;
+    options.always_stage = GENERATE(false, true);
+    options.submissions = GENERATE(Submissions::single, Submissions::collected);
+    const Device device(options);
+    {
+        const Axpy test(device);
+        const Buffer size(device, 3 * sizeof(std::uint32_t)), empty(device, 0);
+        const std::array<BoundBuffer, 3> bound{BoundBuffer{2, &test.result}, {0, &test.a}, {1, &test.b}};
+        const float scale = 1;
+        test.result.fill(0);
+        for (const std::uint32_t n_groups : {0u, 3u}) {
+            size.write_items<std::uint32_t>(std::array<std::uint32_t, 3>{n_groups, 1, 1});
+            test.kernel.dispatch_indirect(bound, std::as_bytes(std::span(&scale, 1)), size);
+            const auto words = Buffer::read_words({&size, &empty, &test.result});
+            REQUIRE(words.size() == 3);
+            CHECK(words[0] == std::vector<std::uint32_t>{n_groups, 1, 1});
+            CHECK(words[1].empty());
+            for (std::size_t i = 0; i < 64; ++i) {
+                REQUIRE(std::bit_cast<float>(words[2][i]) == (i < 8 * n_groups ? 2 * static_cast<float>(i) : 0.0f));
+            }
+        }
     }
     CHECK(device.validation_messages() == std::vector<std::string>{});
 }
