@@ -28,10 +28,18 @@ def says(window, *words):
                     f"a message with {words}", 30)
 
 
+def opens(window, file):
+    window.key("ctrl+o")
+    window.wait_for(lambda screen: screen["dialog"] == 1, "the dialog")
+    window.write(file)
+    window.key("Return")
+
+
 def survives_plugin(elvis, display, folder, trouble):
     os.environ["ELVIS_TROUBLE"] = trouble
-    window = Window(elvis, display, folder, ["bad.tetrahedron", "--size", "800x600"])
+    window = Window(elvis, display, folder, ["--size", "800x600"])
     try:
+        opens(window, os.path.join(folder, "bad.tetrahedron"))
         offers_conversion(window)
         if trouble == "crash":
             says(window, "bad.tetrahedron", "org.elvis.test.troubled-source", "in its function sample", "signal 11")
@@ -40,10 +48,7 @@ def survives_plugin(elvis, display, folder, trouble):
             window.click("dialog/cancel")
             says(window, "the conversion was cancelled")
         # The window goes on.
-        window.key("ctrl+o")
-        window.wait_for(lambda screen: screen["dialog"] == 1, "the dialog")
-        window.write(os.path.join(folder, "ball.h5"))
-        window.key("Return")
+        opens(window, os.path.join(folder, "ball.h5"))
         window.wait_for(lambda screen: screen["volume"].endswith("ball.h5"), "another volume")
     finally:
         window.close()
