@@ -107,8 +107,8 @@ ConvertReport convert_apart(const Arguments& arguments) {
     const InterruptGuard guard(control, SecondInterrupt::is_counted);
     ConvertProcess process;
     process.most_bytes = arguments.memory_limit << 20u;
-    if (const auto level = spdlog::get_level(); level != spdlog::level::warn) {
-        process.first_arguments = {level < spdlog::level::warn ? "--verbose" : "--quiet"};
+    if (const auto level = spdlog::get_level(); level != spdlog::level::info) {
+        process.first_arguments = {level < spdlog::level::info ? "--verbose" : "--quiet"};
     }
     process.is_urgent = [] { return n_interrupts > 1; };
     return convert_separately(request_of(arguments), control, process);

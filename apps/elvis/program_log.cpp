@@ -35,7 +35,7 @@ void set_up_log(Verbosity verbosity) {
     logger->set_pattern("elvis: %^%l%$: %v");
     logger->set_level(verbosity == Verbosity::verbose ? spdlog::level::debug
                       : verbosity == Verbosity::quiet ? spdlog::level::err
-                                                      : spdlog::level::warn);
+                                                      : spdlog::level::info);
     spdlog::set_default_logger(std::move(logger));
     program_host().log = [](LogLevel level, std::string_view line) { spdlog::log(level_of(level), line); };
 }

@@ -9,8 +9,8 @@ namespace elvis {
 enum class Verbosity { quiet, normal, verbose };
 
 /**
- * Sets up the process's logger, the core's included. `normal` shows warnings, `verbose` everything, `quiet` errors;
- * $ELVIS_LOG=verbose|quiet wins.
+ * Sets up the process's logger, the core's included. `normal` shows all but what helps to find errors, `verbose` everything,
+ * `quiet` errors; $ELVIS_LOG=verbose|quiet wins.
  */
 void set_up_log(Verbosity verbosity);
 

@@ -303,7 +303,7 @@ private:
         result.plugin_path = plugin_path ? plugin_path->c_str() : nullptr;
         result.cache_folder = cache_folder ? cache_folder->c_str() : nullptr;
         result.log = [](void*, elvis_log_level level, elvis_string line) {
-            if (level < ELVIS_LOG_WARNING) {
+            if (level < ELVIS_LOG_INFO) {
                 return;
             }
             // The logging module decides who hears of it. Lines may come while the interpreter ends.
@@ -312,7 +312,8 @@ private:
             }
             const py::gil_scoped_acquire locked;
             try {
-                py::module_::import("logging").attr("getLogger")("elvis").attr("warning")("%s", line);
+                py::module_::import("logging").attr("getLogger")("elvis").attr(level < ELVIS_LOG_WARNING ? "info" : "warning")(
+                    "%s", line);
             } catch (py::error_already_set& failure) {
                 failure.discard_as_unraisable("a log line of elvis");
             }

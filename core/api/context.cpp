@@ -81,7 +81,7 @@ const Device& Context::device() {
     const std::lock_guard lock(m_mutex);
     if (!m_device) {
         m_device.emplace(wanted_device, is_validated);
-        log_line(LogLevel::info, "device: {}", m_device->summary().name);
+        log_debug("device: {}", m_device->summary().name);
     }
     return *m_device;
 }
@@ -90,7 +90,7 @@ const std::vector<std::unique_ptr<Device>>& Context::other_devices() {
     const std::lock_guard lock(m_mutex);
     for (std::size_t i = m_others.size(); i < m_wanted_others.size(); ++i) {
         m_others.push_back(std::make_unique<Device>(m_wanted_others[i], is_validated));
-        log_line(LogLevel::info, "device: {}", m_others.back()->summary().name);
+        log_debug("device: {}", m_others.back()->summary().name);
     }
     return m_others;
 }

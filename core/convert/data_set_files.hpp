@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace elvis {
  * A guess: plugins do not tell what they read. The files that are named; text files' own mentions of others, and what these
  * mention; and what lies beside a named file, or in a folder there, and begins as its name does (digits at the end apart):
  * `case0.f00001` has `case.re2` and `case0.f00002`. Pictures and what ElVis writes do not count unless they are named or
- * mentioned. Sorted, absolute.
+ * mentioned; but of an HDF5 file, which may find others by their ids, all HDF5 files beside it do. Sorted, absolute; nothing
+ * if there are too many (20000).
  */
-std::vector<std::filesystem::path> data_set_files(const std::vector<std::string>& inputs);
+std::optional<std::vector<std::filesystem::path>> data_set_files(const std::vector<std::string>& inputs);
 
 } // namespace elvis

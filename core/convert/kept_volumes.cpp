@@ -56,13 +56,18 @@ std::string stamp(const fs::path& file) {
     return file.string() + '\n' + std::to_string(size) + '\n' + std::to_string(time) + '\n';
 }
 
-std::string key_of(const Plugin& plugin, const std::vector<std::string>& inputs, const std::string& options) {
+/** Nothing for a data set of which it cannot be told when it changes. */
+std::optional<std::string> key_of(const Plugin& plugin, const std::vector<std::string>& inputs, const std::string& options) {
+    const std::optional<std::vector<fs::path>> files = data_set_files(inputs);
+    if (!files) {
+        return std::nullopt;
+    }
     std::string text = std::string(ELVIS_VERSION) + '\n' + plugin.id() + '\n' + plugin.version() + '\n';
     text += stamp(plugin.library()) + options + '\n';
     for (const std::string& input : inputs) {
         text += fs::absolute(input).lexically_normal().string() + '\n';
     }
-    for (const fs::path& file : data_set_files(inputs)) {
+    for (const fs::path& file : *files) {
         text += stamp(file);
     }
     return content_hash(text);
@@ -157,9 +162,10 @@ std::shared_ptr<const TemporaryFolder> place_for(const fs::path& all, bool& is_k
 
 KeptVolume kept_volume(const std::shared_ptr<const Plugin>& plugin, const std::vector<std::string>& inputs,
                        const std::string& options, const TaskControl& control) {
-    const fs::path all = folder_of_all();
+    const std::optional<std::string> key = key_of(*plugin, inputs, options);
+    const fs::path all = key ? folder_of_all() : fs::path();
     const std::string name = volume_name(inputs);
-    const fs::path entry = all.empty() ? fs::path() : all / key_of(*plugin, inputs, options);
+    const fs::path entry = all.empty() ? fs::path() : all / *key;
     if (auto kept = all.empty() ? std::nullopt : find(entry, name)) {
         return std::move(*kept);
     }

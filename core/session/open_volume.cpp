@@ -25,7 +25,7 @@ VolumeFile converted(const PluginRegistry& registry, const std::shared_ptr<const
                      const std::vector<std::string>& paths, const std::string& options, const TaskControl& control) {
     const KeptVolume kept = kept_volume(plugin, paths, options, control);
     // Said once; what is lost, each time.
-    const LogLevel level = kept.is_new || !is_exact(kept.report) ? LogLevel::warning : LogLevel::info;
+    const LogLevel level = !is_exact(kept.report) ? LogLevel::warning : kept.is_new ? LogLevel::info : LogLevel::debug;
     log_line(level, "{}: converted by {}, {}; {} ({})", names_of(paths), plugin->id(), exactness(kept.report),
              kept.folder   ? "kept until the end, since there is no cache"
              : kept.is_new ? "kept in the cache"
@@ -34,12 +34,12 @@ VolumeFile converted(const PluginRegistry& registry, const std::shared_ptr<const
     return {registry.runtime_for(kept.path), kept.path, {}, kept.folder};
 }
 
-bool is_volume(const PluginRegistry& registry, const std::string& path) {
+/** Null if no runtime plugin reads the file. */
+std::shared_ptr<const Plugin> runtime_plugin(const PluginRegistry& registry, const std::string& path) {
     try {
-        registry.runtime_for(path);
-        return true;
+        return registry.runtime_for(path);
     } catch (const Error&) {
-        return false;
+        return nullptr;
     }
 }
 
@@ -53,14 +53,15 @@ VolumeFile find_volume(const PluginRegistry& registry, const std::vector<std::st
         const bool converts = wanted->converter() != nullptr && (paths.size() > 1 || wanted->runtime() == nullptr);
         return converts ? converted(registry, wanted, paths, options, control) : VolumeFile{wanted, first, options, {}};
     }
-    if (paths.size() == 1 && is_volume(registry, first)) {
-        return {registry.runtime_for(first), first, options, {}};
+    const std::shared_ptr<const Plugin> drawing = runtime_plugin(registry, first);
+    if (paths.size() == 1 && drawing) {
+        return {drawing, first, options, {}};
     }
     std::shared_ptr<const Plugin> converter;
     try {
         converter = registry.converter_for(first);
     } catch (const Error& error) {
-        if (is_volume(registry, first)) {
+        if (drawing) {
             throw Error(first, "is a volume by itself: several files are one volume only where a plugin converts them");
         }
         throw unknown_file(registry, first, error);

@@ -2,7 +2,6 @@
 
 #include <core/base/milliseconds.hpp>
 #include <core/vulkan/check.hpp>
-#include <core/vulkan/device_impl.hpp>
 
 #include <chrono>
 #include <utility>
@@ -15,8 +14,6 @@ namespace {
 constexpr double most_asking_milliseconds = 5;
 
 } // namespace
-
-bool collects_submissions(const Device& device) { return device.impl().queue->collects(); }
 
 CommandQueue::CommandQueue(VkPhysicalDevice physical, VkDevice device, std::uint32_t family, bool collects, bool asks,
                            std::string place)

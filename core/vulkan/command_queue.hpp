@@ -19,9 +19,6 @@
 
 namespace elvis {
 
-/** Whether commands are collected on a device before they are submitted. */
-bool collects_submissions(const Device& device);
-
 /**
  * Commands in the order in which they are recorded: each sees what those before it have written. Either each is submitted and
  * waited for at once, or they are collected until this side wants to see a result (finish): on a device of its own, a

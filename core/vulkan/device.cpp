@@ -198,6 +198,7 @@ VkDevice Device::handle() const { return m_impl->device; }
 VkPhysicalDevice Device::physical() const { return m_impl->physical; }
 const VkPhysicalDeviceLimits& Device::limits() const { return m_impl->limits; }
 std::uint32_t Device::subgroup_size() const { return m_impl->subgroup_size; }
+bool Device::collects_submissions() const { return m_impl->queue->collects(); }
 std::uint64_t Device::max_binding_bytes() const { return m_impl->max_binding_bytes; }
 bool Device::uses_texel_buffers() const { return m_impl->texel_buffers; }
 bool Device::is_validated() const { return m_impl->options.validation; }

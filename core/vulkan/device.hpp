@@ -121,6 +121,8 @@ public:
     VkPhysicalDevice physical() const;
     const VkPhysicalDeviceLimits& limits() const;
     std::uint32_t subgroup_size() const;
+    /** Whether commands are collected before they are submitted (Submissions). */
+    bool collects_submissions() const;
     /** Bytes that one binding of the kind used for data may span. */
     std::uint64_t max_binding_bytes() const;
     /** Data buffers are read as texel buffers (fast on CPU drivers) rather than storage buffers (fast on GPUs). */

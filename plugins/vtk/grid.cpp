@@ -1,7 +1,7 @@
 #include "grid.hpp"
 
+#include "cell/node_spacing.hpp"
 #include "grid_piece.hpp"
-#include "node_spacing.hpp"
 
 #include <algorithm>
 

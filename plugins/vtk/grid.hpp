@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "cell_connectivity.hpp"
-#include "piece.hpp"
+#include "cell/cell_connectivity.hpp"
+#include "file/piece.hpp"
 #include "time_step.hpp"
 
 #include <elvis/plugin.hpp>

@@ -2,10 +2,10 @@
  * @file plugin.cpp
  * Conversion plugin for VTK's unstructured grids: XML files and VTKHDF.
  */
-#include "basis_cache.hpp"
+#include "cell/basis_cache.hpp"
 #include "data_set.hpp"
-#include "hdf_grid.hpp"
-#include "xml_file.hpp"
+#include "file/hdf_grid.hpp"
+#include "file/xml_file.hpp"
 
 #include <elvis/plugin.hpp>
 

@@ -1,7 +1,7 @@
 #include "time_step.hpp"
 
-#include "hdf_piece.hpp"
-#include "xml_piece.hpp"
+#include "file/hdf_piece.hpp"
+#include "file/xml_piece.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "piece.hpp"
+#include "file/piece.hpp"
 
 #include <functional>
 #include <optional>

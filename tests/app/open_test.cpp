@@ -34,7 +34,7 @@ TEST_CASE("A foreign file is converted once, which is said once, and again when 
     const Outcome first = run_with_cache(place, "info box.json");
     INFO(first.err);
     CHECK(first.status == 0);
-    CHECK_THAT(first.err, Contains("box.json: converted by org.elvis.generator, exact; kept in the cache ("));
+    CHECK_THAT(first.err, Contains("info: box.json: converted by org.elvis.generator, exact; kept in the cache ("));
     CHECK_THAT(first.out, Contains("2 elements"));
     const Outcome second = run_with_cache(place, "info box.json");
     CHECK(second.err.empty());
@@ -52,7 +52,8 @@ TEST_CASE("What a conversion loses is said each time") {
     const ProgramFolder place;
     place.write("sinc.json", R"({"generator": 1, "mesh": "box", "elements": [1, 1, 1], "field": "sinc", "order": 2})");
     for (int time = 0; time < 2; ++time) {
-        CHECK_THAT(run_with_cache(place, "info sinc.json").err, Contains("NOT exact: the largest residual is "));
+        CHECK_THAT(run_with_cache(place, "info sinc.json").err,
+                   Contains("warning: sinc.json: converted by org.elvis.generator, NOT exact: the largest residual is "));
     }
 }
 

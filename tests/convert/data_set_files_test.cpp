@@ -16,7 +16,9 @@ std::vector<std::string> names(const TemporaryFolder& folder, const std::vector<
         paths.push_back(folder.path(input));
     }
     std::vector<std::string> found;
-    for (const auto& file : data_set_files(paths)) {
+    const auto files = data_set_files(paths);
+    REQUIRE(files);
+    for (const auto& file : *files) {
         found.push_back(file.lexically_relative(folder.path()).string());
     }
     return found;
@@ -40,4 +42,21 @@ TEST_CASE("Files whose names begin alike belong to a data set, pictures and resu
     }
     CHECK(names(folder, {"case0.f00001"}) == std::vector<std::string>{"case.re2", "case0.f00001", "case0.f00002"});
     CHECK(names(folder, {"case.h5"}).size() == 4);
+}
+
+TEST_CASE("HDF5 files beside one belong to its data set, whatever their names") {
+    const TemporaryFolder folder;
+    const std::string hdf5 = "\x89HDF\r\n\x1a\n";
+    folder.write("state.h5", hdf5);
+    folder.write("mesh.h5", hdf5);
+    folder.write("mesh.txt", "x");
+    CHECK(names(folder, {"state.h5"}) == std::vector<std::string>{"mesh.h5", "state.h5"});
+}
+
+TEST_CASE("Of a data set of more files than can be watched nothing is known") {
+    const TemporaryFolder folder;
+    for (int i = 0; i < 20001; ++i) {
+        folder.write("case0.f" + std::to_string(100000 + i), "");
+    }
+    CHECK(!data_set_files({folder.path("case0.f100000")}));
 }

@@ -6,12 +6,16 @@
 
 #include <core/convert/convert.hpp>
 #include <core/plugin_host/source_volume.hpp>
+#include <tests/support/asked_source.hpp>
 #include <tests/support/files.hpp>
 
 #include <array>
 #include <string>
 #include <vector>
 
+using elvis::test::all_elements;
+using elvis::test::position;
+using elvis::test::sample;
 using elvis::test::TemporaryFolder;
 
 /** Opens files with the plugin. */
@@ -22,8 +26,3 @@ std::string hopr_data(const std::string& name);
 
 /** The message with which files are refused, when they are opened or when elements are asked for. */
 std::string failure(const std::vector<std::string>& paths);
-
-std::vector<elvis_source_element> all_elements(const elvis::SourceVolume& source);
-std::array<double, 3> position(const elvis::SourceVolume& source, std::uint64_t element, const std::array<double, 3>& xi);
-std::vector<double> sample(const elvis::SourceVolume& source, std::uint64_t element, const std::array<double, 3>& xi,
-                           std::uint32_t step = 0);

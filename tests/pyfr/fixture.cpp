@@ -20,31 +20,12 @@ std::string failure(const std::vector<std::string>& paths) {
     return "no failure";
 }
 
-std::vector<elvis_source_element> all_elements(const elvis::SourceVolume& source) {
-    std::vector<elvis_source_element> elements(source.info().n_elements);
-    source.elements(0, elements.size(), elements);
-    return elements;
-}
-
 std::vector<std::string> field_names(const elvis::SourceVolume& source) {
     std::vector<std::string> names;
     for (const auto& field : source.fields()) {
         names.push_back(field.name);
     }
     return names;
-}
-
-std::array<double, 3> position(const elvis::SourceVolume& source, std::uint64_t element, const std::array<double, 3>& xi) {
-    std::array<double, 3> x{};
-    source.evaluate_mapping(element, xi, x);
-    return x;
-}
-
-std::vector<double> sample(const elvis::SourceVolume& source, std::uint64_t element, const std::array<double, 3>& xi,
-                           std::uint32_t step) {
-    std::vector<double> values(source.n_values());
-    source.sample(step, element, xi, values);
-    return values;
 }
 
 std::array<double, 3> from_pyfr(const std::string& kind, const std::array<double, 3>& x) {

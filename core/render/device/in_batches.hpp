@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/vulkan/command_queue.hpp>
+#include <core/vulkan/device.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -22,7 +22,7 @@ constexpr std::uint32_t most_groups = 1u << 15;
  * (core/vulkan/kernel/dispatch_pace.hpp).
  */
 inline std::uint32_t items_a_dispatch(const Device& device, std::uint32_t most, std::uint32_t items_a_group = 1) {
-    return collects_submissions(device) ? std::max(most, most_groups * items_a_group) : most;
+    return device.collects_submissions() ? std::max(most, most_groups * items_a_group) : most;
 }
 
 /** Calls `dispatch(first, number)` for consecutive batches of `count` items, each of at most `most`. */

@@ -26,7 +26,7 @@ inline std::uint32_t rows_an_invocation(const Device& device, std::uint32_t many
     return device.summary().type == "cpu" ? many : few;
 }
 
-/** Of tiles whose lanes go down all rows, and of the pictures of which they are parts (part_rows). */
+/** Rows of a tile of which an invocation draws a column. They divide part_rows. */
 inline std::uint32_t tile_height_on(const Device& device) { return rows_an_invocation(device, 16, 2); }
 
 /**

@@ -69,7 +69,7 @@ void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32
     m_height = height;
     m_all = m_all_groups.of(m_device, m_shape, width, height);
     m_open = m_all;
-    m_is_indirect = collects_submissions(m_device) && m_all.count <= m_device.limits().maxComputeWorkGroupCount[0];
+    m_is_indirect = m_device.collects_submissions() && m_all.count <= m_device.limits().maxComputeWorkGroupCount[0];
     for (std::optional<Buffer>* list : {&m_live, &m_open_lists[0], &m_open_lists[1]}) {
         provide_buffer(*list, m_device, m_all.list->bytes());
     }

@@ -70,8 +70,6 @@ public:
     void begin(const Buffer& states, const Buffer& has_starts, std::uint32_t width, std::uint32_t height);
     /** All groups of the picture. */
     RayGroups all() const { return m_all; }
-    /** What seeking() and going() give has a size that the device alone knows, and this side need not wait for it. */
-    bool is_indirect() const { return m_is_indirect; }
     /** Groups in which rays look for a start, in no order. Those that can find none end. Good until the next call. */
     RayGroups seeking();
     /** Of those that go on in these elements, likewise. Rays that have looked for a start in vain end. */
@@ -91,6 +89,7 @@ private:
     RayGroups m_open;
     std::optional<Buffer> m_live, m_open_lists[2];
     std::size_t m_next_open = 0;
+    /** The device alone knows the size of lists, and this side need not wait for it. */
     bool m_is_indirect = false;
     const Buffer *m_states = nullptr, *m_has_starts = nullptr;
     std::uint32_t m_width = 0, m_height = 0;

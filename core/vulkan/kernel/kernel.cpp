@@ -34,7 +34,7 @@ std::uint64_t groups_at_once(const Device& device) {
 }
 
 std::shared_ptr<DispatchPace> pace_on(const Device& device) {
-    return std::make_shared<DispatchPace>(groups_at_once(device), collects_submissions(device)
+    return std::make_shared<DispatchPace>(groups_at_once(device), device.collects_submissions()
                                                                       ? DispatchPace::wanted_collected_milliseconds
                                                                       : DispatchPace::wanted_milliseconds);
 }
@@ -214,7 +214,7 @@ void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::
             vkCmdDispatchBase(commands, part.first[0], part.first[1], part.first[2], part.count[0], part.count[1],
                               part.count[2]);
         };
-        if (device.impl().queue->collects()) {
+        if (device.collects_submissions()) {
             run(dispatch, bindings, push_constants,
                 [held = pace, n = part.n_groups()](double milliseconds) { held->took(n, milliseconds); });
         } else {

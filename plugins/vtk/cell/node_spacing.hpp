@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "grid.hpp"
+#include "../grid.hpp"
 
 namespace elvis_vtk {
 
