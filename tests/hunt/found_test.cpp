@@ -51,11 +51,11 @@ std::string text_of(double number) {
 
 double field(const oracle::Vector& x) { return x.x() + x.y() * x.z(); }
 
-void write_hexahedra(const std::string& path, const std::vector<oracle::Map>& maps,
-                     const std::vector<native::Face>& faces = {}) {
+void write_hexahedra(const std::string& path, const std::vector<oracle::Map>& maps, const std::vector<native::Face>& faces = {},
+                     const oracle::Function& values = field) {
     const native::Space space = oracle::space_of(native::Shape::hexahedron, 2);
     oracle::VolumeData data;
-    data.classes.push_back(oracle::make_class(space, space, maps, field));
+    data.classes.push_back(oracle::make_class(space, space, maps, values));
     write_volume(path, data, faces);
 }
 
@@ -170,15 +170,17 @@ TEST_CASE("A face that is seen edge on shows no line where another one far in fr
     for (const std::int64_t element : {0, 1})
         for (std::int32_t face = 0; face < 6; ++face)
             faces.push_back({element, -1, face, -1, -1});
-    write_hexahedra(file.path(), {block({0, -2, -1}, {9, 2, 0}), block({0, 0.1, 0.2}, {0.2, 2, 2})}, faces);
-    FrameRequest request = request_from({-3, 0, 0.7}, {2, 0.13, 0.2});
+    // Lines along the view, so that some are in the hidden part of a pixel alone.
+    write_hexahedra(file.path(), {block({0, -2, -1}, {9, 2, 0}), block({0, 0.1, 0.2}, {0.2, 2, 2})}, faces,
+                    [](const oracle::Vector& x) { return x.y(); });
+    FrameRequest request = request_from({-3, 0, 0.7}, {7, 0.31, 0});
     request.camera.up = {0, 0, 1};
-    request.camera.field_of_view = 25;
+    request.camera.field_of_view = 6;
     Surface surface = colored_surface();
     surface.geometry = BoundaryFaces{};
     surface.contours.emplace();
-    for (int i = 0; i < 200; ++i)
-        surface.contours->values.push_back(0.0501 * i);
+    for (int i = 0; i < 40; ++i)
+        surface.contours->values.push_back(-1 + 0.0601 * i);
     request.surfaces = {surface};
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
     const Tally tally = judge_picture(file.path(), request, precision);
