@@ -1,7 +1,5 @@
 #include "call.hpp"
-
-#include <core/base/counted.hpp>
-#include <core/expression/expression.hpp>
+#include "columns.hpp"
 
 #include <cmath>
 #include <limits>
@@ -11,44 +9,6 @@
 namespace elvis::library {
 
 namespace {
-
-/** What a probe is asked for: a field of the volume as it is, or an expression. */
-struct Column {
-    std::uint32_t field = 0;
-    /** Of the list of expressions; not used for fields. */
-    std::size_t expression = 0;
-    bool is_field = false;
-    std::uint32_t n_values = 1;
-};
-
-struct Columns {
-    std::vector<Column> columns;
-    std::vector<std::shared_ptr<const Expression>> expressions;
-    std::uint32_t n_values = 0;
-};
-
-Columns columns_of(const RuntimeVolume& volume, const elvis_string* fields, std::uint32_t n_fields) {
-    Columns all;
-    if (n_fields > 0) {
-        need(fields, "fields");
-    }
-    for (std::uint32_t index = 0; index < n_fields; ++index) {
-        need(fields[index], "fields");
-        Column column;
-        for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
-            if (volume.fields()[field].name == fields[index]) {
-                column = {field, 0, true, volume.fields()[field].n_components};
-            }
-        }
-        if (!column.is_field) {
-            column.expression = all.expressions.size();
-            all.expressions.push_back(std::make_shared<const Expression>(fields[index], volume.fields(), volume.dimension()));
-        }
-        all.n_values += column.n_values;
-        all.columns.push_back(column);
-    }
-    return all;
-}
 
 /** Writes the answers of one point into the caller's arrays. */
 class Writer {
@@ -76,8 +36,7 @@ public:
                     put(nan, {nan, nan, nan}, 0);
                 } else if (column.is_field) {
                     const FieldSample& sample = point.fields[column.field];
-                    const std::size_t of = 3 * std::size_t{component};
-                    put(sample.values[component], {sample.gradients[of], sample.gradients[of + 1], sample.gradients[of + 2]},
+                    put(sample.values[component], gradient_of(sample, component),
                         sample.gradient_is_estimated ? ELVIS_ESTIMATED_GRADIENT : 0);
                 } else {
                     const ExpressionSample& sample = point.expressions[column.expression];
@@ -90,6 +49,12 @@ public:
     }
 
 private:
+    static Vector3 gradient_of(const FieldSample& sample, std::uint32_t component) {
+        const std::size_t first = 3 * std::size_t{component};
+        return sample.gradients.empty()
+                   ? Vector3{}
+                   : Vector3{sample.gradients[first], sample.gradients[first + 1], sample.gradients[first + 2]};
+    }
     void put(double value, const Vector3& gradient, std::uint32_t estimated) {
         if (m_probe.values != nullptr) {
             m_probe.values[m_at] = value;
@@ -109,16 +74,15 @@ private:
 };
 
 /** Points that are asked for at once: enough for every evaluator, and little memory. */
-constexpr std::uint64_t n_points_a_block = 4096;
+constexpr std::uint64_t n_points_a_block = 65536;
 
 void probe_all(Data& data, const elvis_probe& probe) {
-    if (probe.time_step >= data.volume.times().size()) {
-        throw InvalidArgument("time_step", "the volume has " + counted(data.volume.times().size(), "time step"));
-    }
+    check_time_step(data.volume, probe.time_step);
     if (probe.evaluation > ELVIS_EVALUATION_DEVICE) {
         throw InvalidArgument("evaluation", "is not known");
     }
-    const Columns columns = columns_of(data.volume, probe.fields, probe.n_fields);
+    Columns columns = columns_of(data.volume, probe.fields, probe.n_fields);
+    columns.wishes.with_gradients = probe.gradients != nullptr || probe.estimated != nullptr;
     Prober& prober = data.prober(static_cast<ProbeOptions::Evaluation>(probe.evaluation));
     Writer writer(probe, columns);
     std::vector<Vector3> positions;
@@ -130,7 +94,7 @@ void probe_all(Data& data, const elvis_probe& probe) {
         for (std::uint64_t point = first; point < first + n; ++point) {
             positions.push_back({probe.positions[3 * point], probe.positions[3 * point + 1], probe.positions[3 * point + 2]});
         }
-        const std::vector<ProbedPoint> points = prober.probe(positions, probe.time_step, columns.expressions);
+        const std::vector<ProbedPoint> points = prober.probe(positions, probe.time_step, columns.wishes);
         for (std::uint64_t point = 0; point < n; ++point) {
             writer.write(first + point, points[point]);
         }

@@ -2,6 +2,7 @@
 #include <core/expression/parser.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace elvis {
 
@@ -67,6 +68,10 @@ bool Expression::has(const std::vector<NodeId>& roots, std::span<const Operation
     });
 }
 
+bool Expression::needs_element_facts() const {
+    static constexpr std::array facts{Operation::order, Operation::element};
+    return has({m_value}, facts);
+}
 bool Expression::needs_gradients() const { return has({m_value}, first_derivatives); }
 bool Expression::needs_second_derivatives() const { return has({m_value}, second_derivatives); }
 bool Expression::gradient_needs_second_derivatives() const {

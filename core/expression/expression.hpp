@@ -69,6 +69,8 @@ public:
     };
     const std::optional<PlainField>& plain() const { return m_plain; }
 
+    /** The value rests on `order` or `element`, which plugins tell one call at a time. */
+    bool needs_element_facts() const;
     /** What the value rests on. */
     bool needs_gradients() const;
     bool needs_second_derivatives() const;

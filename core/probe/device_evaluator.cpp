@@ -133,7 +133,7 @@ std::vector<Inversion> DeviceEvaluator::invert(std::span<const InversionQuery> q
 }
 
 std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uint32_t time_step,
-                                                   std::span<const ReferencePoint> points) {
+                                                   std::span<const ReferencePoint> points, bool /*with_gradients*/) {
     const std::size_t n_components = m_volume->fields()[field].n_components;
     std::vector<FieldSample> samples(points.size());
     // Double precision has digits enough for any offset.
@@ -157,7 +157,8 @@ std::vector<FieldSample> DeviceEvaluator::evaluate(std::uint32_t field, std::uin
 }
 
 std::vector<ExpressionSample> DeviceEvaluator::evaluate(const std::shared_ptr<const Expression>& expression,
-                                                        std::uint32_t time_step, std::span<const ReferencePoint> points) {
+                                                        std::uint32_t time_step, std::span<const ReferencePoint> points,
+                                                        bool /*with_gradients*/) {
     std::vector<ExpressionSample> samples(points.size());
     const FieldSelection selection = selection_of(expression, *m_volume, time_step);
     m_on_device.keep(std::span(&selection, 1));

@@ -20,10 +20,10 @@ public:
     DeviceEvaluator(const RuntimeVolume& volume, const std::string& device);
 
     std::vector<Inversion> invert(std::span<const InversionQuery> queries) override;
-    std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step,
-                                      std::span<const ReferencePoint> points) override;
+    std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step, std::span<const ReferencePoint> points,
+                                      bool with_gradients) override;
     std::vector<ExpressionSample> evaluate(const std::shared_ptr<const Expression>& expression, std::uint32_t time_step,
-                                           std::span<const ReferencePoint> points) override;
+                                           std::span<const ReferencePoint> points, bool with_gradients) override;
 
 private:
     /**

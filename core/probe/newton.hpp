@@ -9,6 +9,8 @@
 #include <elvis/element.h>
 
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace elvis {
 
@@ -22,6 +24,9 @@ using MappingFunction =
  * which side of a face the target lies. Several starts: the centroid, then points whose images come closest to the target.
  */
 Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, const Vector3& target);
+
+/** The same of several targets in one element, whose points are evaluated together. */
+std::vector<Inversion> invert_mapping(elvis_shape shape, const MappingFunction& mapping, std::span<const Vector3> targets);
 
 /** Of a 3 x 3 matrix, row by row; infinities or NaN if it is singular. */
 std::array<double, 9> invert_matrix(const std::array<double, 9>& matrix);

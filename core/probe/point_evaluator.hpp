@@ -65,13 +65,13 @@ public:
     /** One answer a query, in the same order. */
     virtual std::vector<Inversion> invert(std::span<const InversionQuery> queries) = 0;
 
-    /** One sample a point, in the same order. */
+    /** One sample a point, in the same order. Without gradients these may be missing. */
     virtual std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step,
-                                              std::span<const ReferencePoint> points) = 0;
+                                              std::span<const ReferencePoint> points, bool with_gradients) = 0;
 
     /** Likewise. The expression is over the fields of the volume. */
     virtual std::vector<ExpressionSample> evaluate(const std::shared_ptr<const Expression>& expression, std::uint32_t time_step,
-                                                   std::span<const ReferencePoint> points) = 0;
+                                                   std::span<const ReferencePoint> points, bool with_gradients) = 0;
 };
 
 /**

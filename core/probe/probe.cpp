@@ -41,6 +41,8 @@ Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_vol
         throw Error(volume.path(), "only three-dimensional volumes can be probed");
     m_evaluator = make_evaluator(volume, options);
 
+    m_numbers.resize(volume.n_elements());
+    volume.element_numbers(0, volume.n_elements(), m_numbers);
     std::vector<double> boxes(6 * volume.n_elements());
     volume.bounds(0, volume.n_elements(), boxes);
     Vector3 lower{};
@@ -58,8 +60,7 @@ Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_vol
     m_hierarchy = Hierarchy(boxes, {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2});
 }
 
-std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::uint32_t time_step,
-                                       std::span<const std::shared_ptr<const Expression>> expressions) {
+std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::uint32_t time_step, const ProbeWishes& wishes) {
     if (time_step >= m_volume->times().size())
         throw UsageError(m_volume->path(), "there is no time step " + std::to_string(time_step) + "; the volume has " +
                                                std::to_string(m_volume->times().size()));
@@ -86,9 +87,7 @@ std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::
         point.n_failures += inversions[i].outcome == Inversion::Outcome::failed;
         if (inversions[i].outcome != Inversion::Outcome::inside)
             continue;
-        std::int64_t number = 0;
-        m_volume->element_numbers(queries[i].element, 1, {&number, 1});
-        owners[query_point[i]].push_back({number, {queries[i].element, inversions[i].xi}});
+        owners[query_point[i]].push_back({m_numbers[queries[i].element], {queries[i].element, inversions[i].xi}});
     }
 
     std::vector<ReferencePoint> found;
@@ -105,12 +104,15 @@ std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::
         found_point.push_back(i);
     }
     for (std::uint32_t field = 0; field < m_volume->fields().size(); ++field) {
-        std::vector<FieldSample> samples = m_evaluator->evaluate(field, time_step, found);
+        const bool is_wanted = !wishes.fields || (*wishes.fields)[field];
+        std::vector<FieldSample> samples = is_wanted ? m_evaluator->evaluate(field, time_step, found, wishes.with_gradients)
+                                                     : std::vector<FieldSample>(found.size());
         for (std::size_t i = 0; i < samples.size(); ++i)
             points[found_point[i]].fields.push_back(std::move(samples[i]));
     }
-    for (const std::shared_ptr<const Expression>& expression : expressions) {
-        const std::vector<ExpressionSample> samples = m_evaluator->evaluate(expression, time_step, found);
+    for (const std::shared_ptr<const Expression>& expression : wishes.expressions) {
+        const std::vector<ExpressionSample> samples =
+            m_evaluator->evaluate(expression, time_step, found, wishes.with_gradients);
         for (std::size_t i = 0; i < samples.size(); ++i)
             points[found_point[i]].expressions.push_back(samples[i]);
     }

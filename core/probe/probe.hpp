@@ -30,12 +30,20 @@ struct ProbeOptions {
     std::string device;
 };
 
+/** What is asked of each point. */
+struct ProbeWishes {
+    /** Of each field of the volume whether it is wanted; nothing: all are. */
+    std::optional<std::vector<bool>> fields;
+    std::vector<std::shared_ptr<const Expression>> expressions;
+    bool with_gradients = true;
+};
+
 struct ProbedPoint {
     Vector3 position{};
     /** Number of the element that contains the point; the lowest if several do. */
     std::optional<std::int64_t> element;
     Vector3 xi{};
-    /** One for each field of the volume; empty if no element contains the point. */
+    /** One for each field of the volume, empty where it is not wanted; none if no element contains the point. */
     std::vector<FieldSample> fields;
     /** One for each expression asked for; empty likewise. */
     std::vector<ExpressionSample> expressions;
@@ -52,13 +60,14 @@ public:
     explicit Prober(const RuntimeVolume& volume, const ProbeOptions& options = {});
 
     /** One answer a position, in the same order. A position that is not finite lies in no element. */
-    std::vector<ProbedPoint> probe(std::span<const Vector3> positions, std::uint32_t time_step,
-                                   std::span<const std::shared_ptr<const Expression>> expressions = {});
+    std::vector<ProbedPoint> probe(std::span<const Vector3> positions, std::uint32_t time_step, const ProbeWishes& wishes = {});
 
 private:
     const RuntimeVolume* m_volume;
     std::unique_ptr<PointEvaluator> m_evaluator;
     Hierarchy m_hierarchy;
+    /** Of each element. */
+    std::vector<std::int64_t> m_numbers;
     /** Distance from boxes within which elements are tried: rounding of positions. */
     double m_tolerance = 0;
 };

@@ -22,9 +22,11 @@ std::vector<double> field_samples(Prober& prober, const RuntimeVolume& volume, c
                                   const Scene& scene, const std::optional<std::string>& field, unsigned piece) {
     const std::string text = with_distances(field.value_or(volume.fields().at(0).name), scene.surfaces);
     const FieldChoice choice = choose_field(volume, text);
-    std::vector<std::shared_ptr<const Expression>> expressions;
+    ProbeWishes wishes{std::vector<bool>(volume.fields().size(), false), {}, false};
     if (choice.expression) {
-        expressions.push_back(choice.expression);
+        wishes.expressions.push_back(choice.expression);
+    } else {
+        (*wishes.fields)[choice.field] = true;
     }
     std::mt19937 random(piece + 1);
     std::vector<Vector3> positions(n_points_a_piece);
@@ -34,7 +36,7 @@ std::vector<double> field_samples(Prober& prober, const RuntimeVolume& volume, c
         }
     }
     std::vector<double> values;
-    for (const ProbedPoint& point : prober.probe(positions, scene.time_step, expressions)) {
+    for (const ProbedPoint& point : prober.probe(positions, scene.time_step, wishes)) {
         if (!point.element) {
             continue;
         }

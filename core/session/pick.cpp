@@ -43,14 +43,14 @@ void take(const ProbedPoint& point, Picked& picked) {
 /** What is in the element that the picked point lies in; whether there is one. */
 bool probe(const Ray& ray, double diagonal, std::uint32_t time_step, const RuntimeVolume& volume, Prober& prober,
            Picked& picked) {
-    std::vector<std::shared_ptr<const Expression>> expressions;
+    ProbeWishes wishes;
     for (const char* text : {"jacobian", "scaled_jacobian", "order"}) {
-        expressions.push_back(std::make_shared<const Expression>(text, volume.fields(), volume.dimension()));
+        wishes.expressions.push_back(std::make_shared<const Expression>(text, volume.fields(), volume.dimension()));
     }
     // A point of the boundary may be outside by what single precision is off: then a little deeper, or less deep.
     for (const double shift : {0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4}) {
         const Vector3 position = ray.at(picked.depth + shift * diagonal);
-        const ProbedPoint point = prober.probe(std::span(&position, 1), time_step, expressions).front();
+        const ProbedPoint point = prober.probe(std::span(&position, 1), time_step, wishes).front();
         if (point.element) {
             take(point, picked);
             return true;

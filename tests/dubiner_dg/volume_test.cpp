@@ -139,8 +139,8 @@ TEST_CASE("the snippet on the device agrees with the plugin's evaluation, deriva
     const std::vector<std::shared_ptr<const Expression>> expressions{
         std::make_shared<Expression>("laplacian(p)", volume.fields(), volume.dimension()),
         std::make_shared<Expression>("norm(curl(velocity))", volume.fields(), volume.dimension())};
-    const auto here = Prober(volume).probe(positions, 0, expressions);
-    const auto there = Prober(volume, on_device).probe(positions, 0, expressions);
+    const auto here = Prober(volume).probe(positions, 0, {{}, expressions});
+    const auto there = Prober(volume, on_device).probe(positions, 0, {{}, expressions});
     double largest = 0, of_second = 0;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         REQUIRE(here[i].element.has_value());

@@ -236,7 +236,7 @@ TEST_CASE("expressions are probed on the CPU and on the device, with their gradi
         ProbeOptions options;
         options.evaluation = evaluation;
         const bool on_cpu = evaluation == ProbeOptions::Evaluation::cpu;
-        const std::vector<ProbedPoint> points = Prober(volume, options).probe(std::span(&at, 1), 0, expressions);
+        const std::vector<ProbedPoint> points = Prober(volume, options).probe(std::span(&at, 1), 0, {{}, expressions});
         REQUIRE(points[0].expressions.size() == expressions.size());
         for (std::size_t i = 0; i < expressions.size(); ++i) {
             const ExpressionSample& sample = points[0].expressions[i];
