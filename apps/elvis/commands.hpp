@@ -16,13 +16,16 @@ void add_completion(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_export(CLI::App& app);
+void add_extrema(CLI::App& app);
 void add_help(CLI::App& app);
 void add_info(CLI::App& app);
+void add_integrate(CLI::App& app);
 void add_manual(CLI::App& app);
 void add_new_plugin(CLI::App& app);
 void add_plugins(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_render(CLI::App& app);
+void add_sample(CLI::App& app);
 void add_version(CLI::App& app);
 void add_view(CLI::App& app);
 

@@ -44,13 +44,16 @@ int run(int argc, char** argv) {
     elvis::commands::add_convert(app);
     elvis::commands::add_devices(app);
     elvis::commands::add_export(app);
+    elvis::commands::add_extrema(app);
     elvis::commands::add_help(app);
     elvis::commands::add_info(app);
+    elvis::commands::add_integrate(app);
     elvis::commands::add_manual(app);
     elvis::commands::add_new_plugin(app);
     elvis::commands::add_plugins(app);
     elvis::commands::add_probe(app);
     elvis::commands::add_render(app);
+    elvis::commands::add_sample(app);
     elvis::commands::add_version(app);
     elvis::commands::add_view(app);
 

@@ -1,5 +1,7 @@
 #include "call.hpp"
 
+#include <core/base/counted.hpp>
+
 #include <cstdlib>
 
 namespace elvis::library {
@@ -41,6 +43,12 @@ elvis_result result_of_exception(const Context* context) noexcept {
         return fail(ELVIS_ERROR_FAILED, error.what());
     } catch (...) {
         return fail(ELVIS_ERROR_FAILED, "a callback threw something");
+    }
+}
+
+void check_time_step(const RuntimeVolume& volume, std::uint32_t time_step) {
+    if (time_step >= volume.times().size()) {
+        throw InvalidArgument(volume.path(), "has " + counted(volume.times().size(), "time step") + ", counted from 0");
     }
 }
 

@@ -74,6 +74,9 @@ template <class Handle, class What> elvis_result call(const Handle* handle, What
     }
 }
 
+/** Throws unless the volume has it. */
+void check_time_step(const RuntimeVolume& volume, std::uint32_t time_step);
+
 /** A copy that the caller releases (elvis_text_release). */
 char* text_for_caller(const std::string& text);
 

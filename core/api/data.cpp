@@ -6,6 +6,7 @@
 #include <core/session/open_volume.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace elvis::library {
 
@@ -80,16 +81,19 @@ const std::array<double, 6>& Data::bounds() {
 
 namespace {
 
-void check_step(const RuntimeVolume& volume, std::uint32_t time_step) {
-    if (time_step >= volume.times().size()) {
-        throw InvalidArgument(volume.path(), "has " + counted(volume.times().size(), "time step") + ", counted from 0");
-    }
-}
-
 std::int64_t number_of(const RuntimeVolume& volume, std::uint64_t element) {
     std::int64_t number = 0;
     volume.element_numbers(element, 1, std::span(&number, 1));
     return number;
+}
+
+Vector3 position_of(const RuntimeVolume& volume, const FieldExtremum& at) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    Vector3 position{nan, nan, nan};
+    if (volume.has_evaluation()) {
+        volume.evaluate_mapping(at.element, at.xi, position, {});
+    }
+    return position;
 }
 
 elvis_range range_of(const RuntimeVolume& volume, const FieldExtrema& found) {
@@ -103,6 +107,8 @@ elvis_range range_of(const RuntimeVolume& volume, const FieldExtrema& found) {
     range.maximum_element = number_of(volume, found.maximum.element);
     std::ranges::copy(found.minimum.xi, range.minimum_xi);
     std::ranges::copy(found.maximum.xi, range.maximum_xi);
+    std::ranges::copy(position_of(volume, found.minimum), range.minimum_position);
+    std::ranges::copy(position_of(volume, found.maximum), range.maximum_position);
     return range;
 }
 
@@ -265,7 +271,7 @@ elvis_result elvis_data_get_field(elvis_data* data, uint32_t field, elvis_field*
 elvis_result elvis_data_get_time(elvis_data* data, uint32_t time_step, double* time) {
     return call(data, [&] {
         need(time, "time");
-        check_step(data->state->volume, time_step);
+        check_time_step(data->state->volume, time_step);
         *time = data->state->volume.times()[time_step];
     });
 }
@@ -278,7 +284,7 @@ elvis_result elvis_data_describe(elvis_data* data, const elvis_describe_options*
             known = known_part(options, "options");
         }
         const DataTask running(*data->state, task);
-        check_step(data->state->volume, known.time_step);
+        check_time_step(data->state->volume, known.time_step);
         DescribeOptions how;
         how.time_step = known.time_step;
         how.is_brief = (known.flags & ELVIS_DESCRIBE_BRIEF) != 0;
@@ -296,7 +302,7 @@ elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t
         need(field, "field");
         const DataTask task(*data->state, nullptr);
         const RuntimeVolume& volume = data->state->volume;
-        check_step(volume, time_step);
+        check_time_step(volume, time_step);
         give(range_of(volume, data->state->extrema_of(choose_field(volume, std::string(field)), time_step)), range, "range");
     });
 }

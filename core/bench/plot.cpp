@@ -1,6 +1,7 @@
 #include <core/bench/plot.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/xml_text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -29,17 +30,9 @@ std::string format(const char* text, ...) {
     return buffer;
 }
 
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-    }
-    return result;
-}
-
 /** Text in the file's coordinates. */
 std::string label(double x, double y, const char* anchor, const std::string& text, const char* more = "") {
-    return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor, more) + escaped(text) + "</text>\n";
+    return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor, more) + xml_text(text) + "</text>\n";
 }
 
 /** The next 1, 2 or 5 times a power of ten, down or up. */
@@ -176,16 +169,24 @@ std::string to_svg(const Plot& plot) {
         // A second pattern once the colours are used up.
         const char* const dashes = index < std::size(colors) ? "" : " stroke-dasharray=\"6 3\"";
         std::string path, marks;
+        const auto end_path = [&] {
+            svg += path.empty()
+                       ? std::string()
+                       : format("<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\"%s points=\"", color, dashes) +
+                             path + "\"/>\n";
+            path.clear();
+        };
         for (const auto& [px, py] : series.points) {
-            if (!std::isfinite(px) || !std::isfinite(py)) {
-                continue;
+            if (std::isfinite(px) && std::isfinite(py)) {
+                path += format("%.1f,%.1f ", x(px), y(py));
+                marks += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" stroke=\"%s\" fill=\"%s\"/>\n", x(px), y(py), color,
+                                x.is_off(px) || y.is_off(py) ? "white" : color);
+            } else if (series.is_curve) {
+                end_path();
             }
-            path += format("%.1f,%.1f ", x(px), y(py));
-            marks += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" stroke=\"%s\" fill=\"%s\"/>\n", x(px), y(py), color,
-                            x.is_off(px) || y.is_off(py) ? "white" : color);
         }
-        svg += format("<polyline fill=\"none\" stroke=\"%s\" stroke-width=\"1.6\"%s points=\"", color, dashes) + path +
-               "\"/>\n" + marks;
+        end_path();
+        svg += series.is_curve ? std::string() : marks;
         const double row = top + 14 + 20 * static_cast<double>(index);
         svg += format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"%s\" stroke-width=\"2\"%s/>\n",
                       width - right + 14, row - 4, width - right + 36, row - 4, color, dashes);

@@ -13,8 +13,10 @@ namespace elvis {
 
 struct PlotSeries {
     std::string name;
-    /** In the order in which they are joined. Those with a number that is not finite are left out. */
+    /** In the order in which they are joined. Those with a number that is not finite are left out; in curves, they are gaps. */
     std::vector<std::array<double, 2>> points;
+    /** Without a mark at each point. */
+    bool is_curve = false;
 };
 
 struct PlotAxis {

@@ -13,10 +13,26 @@ namespace elvis {
 namespace {
 
 constexpr std::uint64_t block_size = std::uint64_t(1) << 20;
+/** Of offsets that are written last. */
+constexpr std::size_t offset_digits = 20;
 static_assert(std::endian::native == std::endian::little);
 static_assert(block_size % sizeof(double) == 0);
 
 } // namespace
+
+std::streampos reserve_offset(std::ostream& file) {
+    const std::streampos place = file.tellp();
+    file << std::string(offset_digits, '0');
+    return place;
+}
+
+void fill_offset(std::ostream& file, std::streampos place, std::streampos begin) {
+    const std::streampos here = file.tellp();
+    const std::string offset = std::to_string(here - begin);
+    file.seekp(place);
+    file << std::string(offset_digits - offset.size(), '0') << offset;
+    file.seekp(here);
+}
 
 AppendedArray::AppendedArray(std::ofstream& file, std::uint64_t n_bytes)
     : m_file(file), m_begin(file.tellp()), m_n_bytes(n_bytes) {

@@ -15,6 +15,11 @@
 
 namespace elvis {
 
+/** Leaves room for an array's offset, which is known when the array is written. Returns where. */
+std::streampos reserve_offset(std::ostream& file);
+/** Writes there how far the file's end is from where the arrays begin. */
+void fill_offset(std::ostream& file, std::streampos place, std::streampos begin);
+
 /**
  * One array, written front to back into an open file. Memory holds one block. Little-endian machines only (asserted at compile
  * time), which is what the file declares.

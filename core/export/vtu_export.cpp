@@ -1,3 +1,4 @@
+#include <core/base/xml_text.hpp>
 #include <core/export/vtu_export.hpp>
 
 #include <core/base/counted.hpp>
@@ -38,26 +39,6 @@ struct ExportArray {
     /** Where in the file the digits of its offset are. */
     std::streampos offset_place{};
 };
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
-        }
-    }
-    return result;
-}
 
 class Exporter {
 public:
@@ -270,10 +251,10 @@ std::vector<ExportArray> Exporter::connectivity_arrays() const {
 
 /** Leaves room for the offset, which is known when the array is written. */
 void Exporter::write_element(std::ostream& out, ExportArray& array) {
-    out << "<DataArray type=\"" << array.type << "\" Name=\"" << escaped(array.name) << "\" NumberOfComponents=\""
+    out << "<DataArray type=\"" << array.type << "\" Name=\"" << xml_text(array.name) << "\" NumberOfComponents=\""
         << array.n_components << "\" format=\"appended\" offset=\"";
-    array.offset_place = out.tellp();
-    out << "00000000000000000000\"/>\n";
+    array.offset_place = reserve_offset(out);
+    out << "\"/>\n";
 }
 
 ExportReport Exporter::write(const std::string& output) {
@@ -306,11 +287,7 @@ ExportReport Exporter::write(const std::string& output) {
     }
     for (std::size_t index = 0; index < arrays.size(); ++index) {
         m_control.progress(static_cast<double>(index) / static_cast<double>(arrays.size()), "writing " + arrays[index].name);
-        const std::streampos here = out.tellp();
-        const std::string offset = std::to_string(here - begin);
-        out.seekp(arrays[index].offset_place);
-        out << std::string(20 - offset.size(), '0') << offset;
-        out.seekp(here);
+        fill_offset(out, arrays[index].offset_place, begin);
         AppendedArray array(out, arrays[index].n_bytes);
         arrays[index].write(array);
         array.finish();

@@ -20,7 +20,10 @@ template <class Visit> void for_each_point(const std::array<std::vector<double>,
     }
 }
 
-/** Volume of the reference shape for one of the collapsed cube, at eta: product of (1 - eta_j)/2 for what is collapsed. */
+void append(PointList& list, const native::Point& point) { list.insert(list.end(), point.begin(), point.end()); }
+
+} // namespace
+
 double collapse_factor(native::Shape shape, const native::Point& eta) {
     const double second = 0.5 * (1 - eta[1]);
     const double third = 0.5 * (1 - eta[2]);
@@ -37,10 +40,6 @@ double collapse_factor(native::Shape shape, const native::Point& eta) {
         return 1;
     }
 }
-
-void append(PointList& list, const native::Point& point) { list.insert(list.end(), point.begin(), point.end()); }
-
-} // namespace
 
 GaussPoints gauss_points(native::Shape shape, const std::array<std::uint32_t, 3>& n) {
     std::array<std::vector<double>, 3> along, weights;

@@ -28,6 +28,10 @@ struct GaussPoints {
 };
 GaussPoints gauss_points(native::Shape shape, const std::array<std::uint32_t, 3>& n);
 
+/** Volume (area) of the reference shape for one of the collapsed cube, at eta: product of (1 - eta_j)/2 for what is collapsed.
+ */
+double collapse_factor(native::Shape shape, const native::Point& eta);
+
 /**
  * Where a projection is compared with its source: the corners, and `n` points scattered over the shape, boundary included,
  * without the symmetries and nodes of any basis (R. Roberts' R3 sequence in collapsed coordinates).

@@ -266,6 +266,8 @@ typedef struct elvis_range {
     /** Elements, as people know them, and places in them. */
     int64_t minimum_element, maximum_element;
     double minimum_xi[3], maximum_xi[3];
+    /** In the world; NaN if the plugin does not evaluate on the CPU. */
+    double minimum_position[3], maximum_position[3];
 } elvis_range;
 
 /**

@@ -12,6 +12,7 @@
 #ifndef ELVIS_ELVIS_HPP
 #define ELVIS_ELVIS_HPP
 
+#include "answers.h"
 #include "elvis.h"
 
 #include <array>
@@ -293,6 +294,26 @@ public:
         auto result = detail::sized<elvis_range>();
         check(elvis_data_get_range(get(), field.c_str(), time_step, &result));
         return result;
+    }
+    /** See elvis_data_integrate. */
+    elvis_integral integrate(const elvis_integration& integration, const task& watch = {}) const {
+        auto result = detail::sized<elvis_integral>();
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_integrate(get(), &integration, &c_watch, &result));
+        return result;
+    }
+    /** JSON: see elvis_data_walk_line. */
+    std::string walk_line(const std::array<double, 3>& from, const std::array<double, 3>& to,
+                          const std::vector<std::string>& fields, std::uint32_t time_step = 0, const task& watch = {}) const {
+        std::vector<elvis_string> names;
+        for (const std::string& name : fields) {
+            names.push_back(name.c_str());
+        }
+        char* text = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_walk_line(get(), from.data(), to.data(), names.data(), static_cast<std::uint32_t>(names.size()),
+                                   time_step, &c_watch, &text));
+        return detail::taken(text);
     }
     /** As the struct says. */
     void probe(const elvis_probe& request, const task& watch = {}) const {

@@ -1,0 +1,154 @@
+#include <apps/elvis/commands.hpp>
+#include <apps/elvis/library_context.hpp>
+#include <apps/elvis/number_list.hpp>
+#include <apps/elvis/open_volume.hpp>
+
+#include <core/base/counted.hpp>
+#include <core/base/error.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace elvis::commands {
+namespace {
+
+struct Arguments {
+    std::vector<std::string> files;
+    std::string plugin;
+    std::string field;
+    bool is_boundary = false;
+    std::vector<std::string> groups;
+    std::string plane;
+    std::string isovalue;
+    std::string level_field;
+    bool is_flux = false;
+    std::uint32_t time_step = 0;
+    double tolerance = 0;
+};
+
+elvis_domain domain_of(const Arguments& arguments) {
+    return arguments.is_boundary         ? ELVIS_DOMAIN_BOUNDARY
+           : !arguments.plane.empty()    ? ELVIS_DOMAIN_PLANE
+           : !arguments.isovalue.empty() ? ELVIS_DOMAIN_ISOSURFACE
+                                         : ELVIS_DOMAIN_VOLUME;
+}
+
+/** Of an isosurface: what it is one of. */
+std::string level_field_of(const Arguments& arguments) {
+    if (arguments.isovalue.empty() || !arguments.level_field.empty()) {
+        return arguments.level_field;
+    }
+    if (arguments.field.empty() || arguments.is_flux) {
+        throw UsageError("--isosurface", "which field's? --isosurface-field says it");
+    }
+    return arguments.field;
+}
+
+elvis_integral integral_of(const data& volume, const Arguments& arguments) {
+    const std::string level_field = level_field_of(arguments);
+    std::vector<elvis_string> groups;
+    for (const std::string& group : arguments.groups) {
+        groups.push_back(group.c_str());
+    }
+    auto wanted = detail::sized<elvis_integration>();
+    wanted.domain = domain_of(arguments);
+    wanted.field = detail::or_null(arguments.field);
+    wanted.groups = groups.data();
+    wanted.n_groups = static_cast<std::uint32_t>(groups.size());
+    wanted.time_step = arguments.time_step;
+    wanted.is_flux = arguments.is_flux ? 1 : 0;
+    if (!arguments.plane.empty()) {
+        std::ranges::copy(numbers("--cut-plane", arguments.plane, 4, 4), wanted.plane);
+    }
+    if (!arguments.isovalue.empty()) {
+        wanted.level_field = level_field.c_str();
+        wanted.isovalue = numbers("--isosurface", arguments.isovalue, 1, 1).front();
+    }
+    wanted.tolerance = arguments.tolerance;
+    TaskControl control;
+    const ProgressBar progress(control);
+    const InterruptGuard guard(control);
+    return volume.integrate(wanted, {[&](double fraction, const char* activity) { control.progress(fraction, activity); },
+                                     [&] { return control.is_cancelled(); }});
+}
+
+void say_doubts(const elvis_integral& integral) {
+    if (integral.n_inverted > 0) {
+        std::fprintf(stderr, "warning: the Jacobian determinant is negative in %s, whose measure counts as positive\n",
+                     counted(integral.n_inverted, "element").c_str());
+    }
+    if (integral.n_unresolved > 0) {
+        std::fprintf(stderr, "warning: the surface stays undecided in %s; what they may add is in the errors\n",
+                     counted(integral.n_unresolved, "small place").c_str());
+    }
+    if (integral.is_converged == 0) {
+        std::fprintf(stderr, "warning: the error is larger than the tolerance\n");
+    }
+}
+
+void run(const Arguments& arguments) {
+    const int n_domains = int{arguments.is_boundary} + int{!arguments.plane.empty()} + int{!arguments.isovalue.empty()};
+    if (n_domains > 1) {
+        throw UsageError("elvis integrate", "takes one of --boundary, --cut-plane and --isosurface");
+    }
+    if (arguments.is_flux && arguments.field.empty()) {
+        throw UsageError("--flux", "needs --field, a vector");
+    }
+    const context library = library_context();
+    const data volume =
+        open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); });
+    const elvis_integral integral = integral_of(volume, arguments);
+    const nlohmann::ordered_json answer = {{"value", integral.value},
+                                           {"error", integral.error},
+                                           {"measure", integral.measure},
+                                           {"measure_error", integral.measure_error},
+                                           {"converged", integral.is_converged != 0},
+                                           {"exact", integral.is_exact != 0},
+                                           {"parts", integral.n_parts},
+                                           {"evaluations", integral.n_evaluations}};
+    std::printf("%s\n", answer.dump(2).c_str());
+    say_doubts(integral);
+}
+
+} // namespace
+
+void add_integrate(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("integrate", "Print integrals over a volume, its boundary, planes or isosurfaces, and fluxes");
+    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
+        ->required();
+    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    command->add_option("--field", arguments->field, "Field, component or expression to integrate; default: the number 1");
+    command
+        ->add_option("--boundary", arguments->groups,
+                     "Over the whole boundary; with a name, over that group of it; may be repeated")
+        ->expected(0, 1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--cut-plane", arguments->plane, "Over the plane a,b,c,d: ax+by+cz+d=0");
+    command->add_option("--isosurface", arguments->isovalue, "Over the isosurface at this value");
+    command->add_option("--isosurface-field", arguments->level_field,
+                        "Field or expression of the isosurface; default: --field");
+    command->add_flag(
+        "--flux", arguments->is_flux,
+        "The field is a vector, of which the component along the normal is integrated: out of the volume, along (a,b,c), or "
+        "to where the isosurface's field is larger");
+    command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "Of the error, relative to the integral of the integrand's magnitude; default: 1e-9")
+        ->check(CLI::Range(1e-14, 0.5));
+    command->callback([arguments, command] {
+        arguments->is_boundary = command->count("--boundary") > 0;
+        // Without a name the list holds an empty one.
+        std::erase_if(arguments->groups, [](const std::string& name) { return name.empty() || name == "{}"; });
+        run(*arguments);
+    });
+}
+
+} // namespace elvis::commands

@@ -1,0 +1,104 @@
+/**
+ * @file answers.h
+ * What is asked of data without a picture: integrals, and what a straight line meets. Rules and threads are those of elvis.h.
+ * Everything is evaluated in double precision, in the true basis on the true geometry.
+ *
+ *     elvis_integration wanted = {.struct_size = sizeof wanted, .domain = ELVIS_DOMAIN_BOUNDARY, .field = "u", .is_flux = 1};
+ *     elvis_integral flux = {.struct_size = sizeof flux};
+ *     elvis_data_integrate(data, &wanted, NULL, &flux);
+ *
+ * Since 0.2.
+ */
+#ifndef ELVIS_ANSWERS_H
+#define ELVIS_ANSWERS_H
+
+#include <elvis/elvis.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Integrals --------------------------------------------------------------------------------------------------------- */
+
+typedef uint32_t elvis_domain;
+/** All elements; of data of two dimensions their area. */
+#define ELVIS_DOMAIN_VOLUME 0u
+/** Faces without a neighbour; of data of two dimensions edges. */
+#define ELVIS_DOMAIN_BOUNDARY 1u
+/** Where a x + b y + c z + d = 0. In a face between elements it counts once; in an outer face, if the elements are behind it.
+ */
+#define ELVIS_DOMAIN_PLANE 2u
+/** Where a field or expression has a value. In discontinuous fields each element has its own. */
+#define ELVIS_DOMAIN_ISOSURFACE 3u
+
+/** What is integrated. */
+typedef struct elvis_integration {
+    uint32_t struct_size;
+    elvis_domain domain;
+    /** A field, a component or an expression: a number, or a vector if `is_flux`. NULL: the number 1. */
+    elvis_string field;
+    /** BOUNDARY: names of groups; none: the whole boundary. */
+    const elvis_string* groups;
+    uint32_t n_groups;
+    uint32_t time_step;
+    /**
+     * Not 0: the vector's component along the normal is integrated, which points out of the volume, along (a, b, c), or to
+     * where the isosurface's field is larger. Not of VOLUME.
+     */
+    uint32_t is_flux;
+    uint32_t reserved;
+    /** PLANE: a, b, c, d. */
+    double plane[4];
+    /** ISOSURFACE: of this field or expression, at this value. */
+    elvis_string level_field;
+    double isovalue;
+    /** Of the error, relative to the integral of the integrand's magnitude, at least 1e-14; 0: 1e-9. */
+    double tolerance;
+} elvis_integration;
+
+typedef struct elvis_integral {
+    uint32_t struct_size;
+    /** Not 0: the errors are within the tolerance. */
+    uint32_t is_converged;
+    /** Not 0: integrand and geometry are polynomials, which are integrated exactly; the error is that of rounding. */
+    uint32_t is_exact;
+    uint32_t reserved;
+    /** The value is off by about `error`, an estimate from two rules of different order. */
+    double value, error;
+    /** Volume, area or length, and its error. */
+    double measure, measure_error;
+    /** Elements or faces that take part; points at which fields or positions were evaluated. */
+    uint64_t n_parts, n_evaluations;
+    /** Parts of elements whose Jacobian determinant is negative somewhere; they count as positive. */
+    uint64_t n_inverted;
+    /** Places on planes and isosurfaces that stay undecided; what they may add is in the errors. */
+    uint64_t n_unresolved;
+} elvis_integral;
+
+/**
+ * Integrates. `integral->struct_size` is set by the caller. An integral that does not converge is no error: `is_converged`
+ * tells. The plugin has to evaluate on the CPU, and elements must not be cut.
+ */
+ELVIS_EXPORT elvis_result elvis_data_integrate(elvis_data* data, const elvis_integration* integration, const elvis_task* task,
+                                               elvis_integral* integral);
+
+/* ---- Lines -------------------------------------------------------------------------------------------------------------- */
+
+/**
+ * Where the straight line between two points enters and leaves elements, in order, as a JSON list. Each place is an object:
+ * `parameter` (share of the line, 0 to 1), `distance`, `position`, and `before` and `after`: null outside of the volume, else
+ * an object with `element`, `xi` and `values`, which are those of the fields there, seen from that side: as many numbers as
+ * elvis_data_count_values tells. Between two places the line is in one element. Elements in which it is for less than a
+ * millionth of their size may be missing.
+ *
+ * Only of data of three dimensions, whose plugin evaluates on the CPU, and whose elements are not cut.
+ */
+ELVIS_EXPORT elvis_result elvis_data_walk_line(elvis_data* data, const double from[3], const double to[3],
+                                               const elvis_string* fields, uint32_t n_fields, uint32_t time_step,
+                                               const elvis_task* task, char** text);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
