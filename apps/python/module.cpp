@@ -126,6 +126,10 @@ public:
         result["certified"] = found.certainty == ELVIS_CERTIFIED;
         result["minimum_element"] = found.minimum_element;
         result["maximum_element"] = found.maximum_element;
+        result["minimum_position"] =
+            std::array{found.minimum_position[0], found.minimum_position[1], found.minimum_position[2]};
+        result["maximum_position"] =
+            std::array{found.maximum_position[0], found.maximum_position[1], found.maximum_position[2]};
         return result;
     }
     /** Elements, xi, values, gradients, whether estimated: what elvis_data_probe writes. */
@@ -162,6 +166,47 @@ public:
             check(elvis_data_probe(m_data.get(), &request, &c_watch));
         });
         return py::make_tuple(elements, xi, values, gradients, estimated);
+    }
+    /** What elvis_data_integrate finds; the domain is one of its numbers. */
+    py::dict integrate(std::uint32_t domain, const std::optional<std::string>& field, const std::vector<std::string>& groups,
+                       const std::array<double, 4>& plane, const std::optional<std::string>& level_field, double isovalue,
+                       bool flux, std::uint32_t time_step, double tolerance, const py::object& progress) const {
+        std::vector<elvis_string> names;
+        for (const std::string& group : groups) {
+            names.push_back(group.c_str());
+        }
+        auto wanted = detail::sized<elvis_integration>();
+        wanted.domain = domain;
+        wanted.field = field ? field->c_str() : nullptr;
+        wanted.groups = names.data();
+        wanted.n_groups = static_cast<std::uint32_t>(names.size());
+        wanted.time_step = time_step;
+        wanted.is_flux = flux ? 1 : 0;
+        std::copy(plane.begin(), plane.end(), wanted.plane);
+        wanted.level_field = level_field ? level_field->c_str() : nullptr;
+        wanted.isovalue = isovalue;
+        wanted.tolerance = tolerance;
+        elvis_integral found{};
+        run(progress, [&](const task& watch) { found = m_data.integrate(wanted, watch); });
+        py::dict result;
+        result["value"] = found.value;
+        result["error"] = found.error;
+        result["measure"] = found.measure;
+        result["measure_error"] = found.measure_error;
+        result["converged"] = found.is_converged != 0;
+        result["exact"] = found.is_exact != 0;
+        result["parts"] = found.n_parts;
+        result["evaluations"] = found.n_evaluations;
+        result["inverted"] = found.n_inverted;
+        result["unresolved"] = found.n_unresolved;
+        return result;
+    }
+    /** JSON: see elvis_data_walk_line. */
+    std::string walk_line(const std::array<double, 3>& from, const std::array<double, 3>& to,
+                          const std::vector<std::string>& fields, std::uint32_t time_step, const py::object& progress) const {
+        std::string places;
+        run(progress, [&](const task& watch) { places = m_data.walk_line(from, to, fields, time_step, watch); });
+        return places;
     }
     std::uint32_t count_values(const std::string& field) const {
         const elvis_string name = field.c_str();
@@ -363,6 +408,11 @@ PYBIND11_MODULE(_elvis, module) {
     py::class_<Volume>(module, "Volume")
         .def("describe", &Volume::describe, py::arg("time_step"), py::arg("brief"))
         .def("range", &Volume::range, py::arg("field"), py::arg("time_step"))
+        .def("integrate", &Volume::integrate, py::arg("domain"), py::arg("field"), py::arg("groups"), py::arg("plane"),
+             py::arg("level_field"), py::arg("isovalue"), py::arg("flux"), py::arg("time_step"), py::arg("tolerance"),
+             py::arg("progress"))
+        .def("walk_line", &Volume::walk_line, py::arg("start"), py::arg("end"), py::arg("fields"), py::arg("time_step"),
+             py::arg("progress"))
         .def("update_field", &Volume::update_field, py::arg("field"), py::arg("time_step"), py::arg("element_class"),
              py::arg("values"))
         .def("count_values", &Volume::count_values, py::arg("field"))

@@ -69,6 +69,7 @@ ElementSampler::ElementSampler(const RuntimeVolume& volume, std::vector<std::sha
       m_reads_value(volume.fields().size(), false), m_reads_gradient(volume.fields().size(), false) {
     assert(volume.has_evaluation());
     for (const auto& expression : m_expressions) {
+        m_reads_mapping = m_reads_mapping || !expression->plain();
         for (const std::uint32_t field : expression->fields()) {
             m_reads_value[field] = true;
             m_reads_gradient[field] = m_reads_gradient[field] || expression->needs_gradients();
@@ -91,14 +92,29 @@ std::vector<ElementSampler::FieldSamples> ElementSampler::fields_at(std::uint64_
     return fields;
 }
 
-void ElementSampler::sample(std::uint64_t element, std::span<const double> xi, bool with_slopes,
-                            ElementSamples& samples) const {
-    const std::size_t n_points = xi.size() / 3;
+void ElementSampler::sample(std::uint64_t element, std::span<const double> xi, ElementSamples& samples) const {
+    sample_mapping(element, xi, samples);
+    sample_expressions(element, xi, false, samples);
+}
+
+void ElementSampler::sample_slopes(std::uint64_t element, std::span<const double> xi, ElementSamples& samples) const {
+    if (m_reads_mapping) {
+        sample_mapping(element, xi, samples);
+    }
+    sample_expressions(element, xi, true, samples);
+}
+
+void ElementSampler::sample_mapping(std::uint64_t element, std::span<const double> xi, ElementSamples& samples) const {
     samples.positions.resize(xi.size());
     samples.jacobians.resize(3 * xi.size());
+    m_volume.evaluate_mapping(element, xi, samples.positions, samples.jacobians);
+}
+
+void ElementSampler::sample_expressions(std::uint64_t element, std::span<const double> xi, bool with_slopes,
+                                        ElementSamples& samples) const {
+    const std::size_t n_points = xi.size() / 3;
     samples.values.resize(n_points * m_expressions.size());
     samples.slopes.resize(with_slopes ? 3 * samples.values.size() : 0);
-    m_volume.evaluate_mapping(element, xi, samples.positions, samples.jacobians);
     if (m_expressions.empty()) {
         return;
     }

@@ -34,8 +34,11 @@ public:
 
     std::size_t n_expressions() const { return m_expressions.size(); }
 
-    /** `xi`: three numbers a point. With slopes, every expression has a gradient(). What was in `samples` goes. */
-    void sample(std::uint64_t element, std::span<const double> xi, bool with_slopes, ElementSamples& samples) const;
+    /** `xi`: three numbers a point. What was in `samples` goes. */
+    void sample(std::uint64_t element, std::span<const double> xi, ElementSamples& samples) const;
+    /** With slopes, which every expression has as its gradient(); without positions and Jacobians, unless expressions read
+     * them. */
+    void sample_slopes(std::uint64_t element, std::span<const double> xi, ElementSamples& samples) const;
 
 private:
     class Point;
@@ -43,6 +46,8 @@ private:
         std::vector<double> values, gradients;
     };
     /** Of the volume's fields those that are used. */
+    void sample_mapping(std::uint64_t element, std::span<const double> xi, ElementSamples& samples) const;
+    void sample_expressions(std::uint64_t element, std::span<const double> xi, bool with_slopes, ElementSamples& samples) const;
     std::vector<FieldSamples> fields_at(std::uint64_t element, std::span<const double> xi, bool with_slopes) const;
 
     const RuntimeVolume& m_volume;
@@ -50,6 +55,8 @@ private:
     std::uint32_t m_time_step;
     /** By the volume's fields: whether an expression reads them, and their gradients. */
     std::vector<bool> m_reads_value, m_reads_gradient;
+    /** An expression is more than a component of a field. */
+    bool m_reads_mapping = false;
 };
 
 } // namespace elvis

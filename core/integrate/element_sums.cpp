@@ -57,7 +57,7 @@ Sums Integrand::sum(std::uint64_t element, elvis_shape shape, const ReferencePoi
     const bool has_weights = !points.weights.empty();
     ElementSamples samples;
     if (points.size() > 0) {
-        m_sampler.sample(element, points.xi, false, samples);
+        m_sampler.sample(element, points.xi, samples);
     }
     Sums sums;
     for (std::size_t i = 0; i < points.size(); ++i) {

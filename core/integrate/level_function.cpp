@@ -20,7 +20,7 @@ const std::vector<LevelSample>& LevelFunction::at(std::span<const Vector3> point
         m_xi.insert(m_xi.end(), m_places.back().xi.begin(), m_places.back().xi.end());
     }
     if (!points.empty()) {
-        m_sampler.sample(m_element, m_xi, true, m_samples);
+        m_sampler.sample_slopes(m_element, m_xi, m_samples);
     }
     m_n_evaluations += points.size();
     m_answers.resize(points.size());

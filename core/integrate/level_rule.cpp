@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace elvis {
 
@@ -114,6 +115,8 @@ void LevelRule::choose_height() {
     if (best > 0) {
         choose_inner_axis();
     }
+    // It rises, or falls, from one end to the other without a zero.
+    m_is_missed = m_is_usable && !m_ends[0].has_zeros && !m_ends[1].has_zeros && m_ends[0].is_positive == m_ends[1].is_positive;
 }
 
 /** One along which both ends of the box, where they have zeros, are monotone. */
@@ -139,37 +142,52 @@ Vector3 LevelRule::point(double outer, double inner, double height) const {
     return s;
 }
 
-/** Newton's method, and bisection where that leaves the interval. */
+/** Newton's method, and bisection where that leaves the interval; together for all that have not settled. */
 std::vector<double> LevelRule::roots(std::size_t axis, const std::vector<Vector3>& from, double lower, double upper) {
     constexpr int most_steps = 60;
-    std::vector<double> lowest(from.size(), lower), highest(from.size(), upper), at(from.size(), 0.5 * (lower + upper));
-    std::vector<bool> rises(from.size());
+    // Of the box's side 1; a step this short was preceded by one of its square root.
+    constexpr double settled = 1e-12;
+    struct Bracket {
+        double lowest = 0, highest = 0, at = 0;
+        bool rises = false;
+    };
     std::vector<Vector3> points = from;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        points[i][axis] = upper;
+    for (Vector3& point : points) {
+        point[axis] = upper;
     }
-    const std::vector<LevelSample>& ends = m_function.at(points);
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        rises[i] = is_positive(ends[i].value);
+    std::vector<Bracket> brackets;
+    for (const LevelSample& end : m_function.at(points)) {
+        brackets.push_back({lower, upper, 0.5 * (lower + upper), is_positive(end.value)});
     }
-    bool is_done = from.empty();
-    for (int step = 0; step < most_steps && !is_done; ++step) {
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            points[i][axis] = at[i];
+    std::vector<std::size_t> active(from.size());
+    std::iota(active.begin(), active.end(), std::size_t{0});
+    for (int step = 0; step < most_steps && !active.empty(); ++step) {
+        points.clear();
+        for (const std::size_t i : active) {
+            points.push_back(from[i]);
+            points.back()[axis] = brackets[i].at;
         }
         const std::vector<LevelSample>& samples = m_function.at(points);
-        is_done = true;
-        for (std::size_t i = 0; i < from.size(); ++i) {
-            (is_positive(samples[i].value) == rises[i] ? highest[i] : lowest[i]) = at[i];
-            double next = at[i] - samples[i].value / samples[i].slope[axis];
-            if (!(next >= lowest[i] && next <= highest[i])) {
-                next = 0.5 * (lowest[i] + highest[i]);
+        std::size_t n_active = 0;
+        for (std::size_t k = 0; k < active.size(); ++k) {
+            Bracket& bracket = brackets[active[k]];
+            const double before = bracket.at;
+            (is_positive(samples[k].value) == bracket.rises ? bracket.highest : bracket.lowest) = before;
+            bracket.at = before - samples[k].value / samples[k].slope[axis];
+            if (!(bracket.at >= bracket.lowest && bracket.at <= bracket.highest)) {
+                bracket.at = 0.5 * (bracket.lowest + bracket.highest);
             }
-            is_done = is_done && std::abs(next - at[i]) <= 1e-15 * std::max(1.0, std::abs(at[i]));
-            at[i] = next;
+            if (std::abs(bracket.at - before) > settled) {
+                active[n_active++] = active[k];
+            }
         }
+        active.resize(n_active);
     }
-    return at;
+    std::vector<double> found;
+    for (const Bracket& bracket : brackets) {
+        found.push_back(bracket.at);
+    }
+    return found;
 }
 
 /** Where, along the outer axis, the ends' zeros enter and leave the base. */
@@ -199,74 +217,86 @@ std::vector<double> LevelRule::outer_breaks() {
     return breaks;
 }
 
-/** Gauss points of the part of the base over which the expression has different signs at the ends. */
-std::vector<LevelRule::BaseNode> LevelRule::base_nodes(unsigned n) {
-    const GaussLine& line = gauss_line(n);
-    const double lower = m_box.lower[m_inner], upper = m_box.upper[m_inner];
-    const double least_width = narrow * (m_box.upper[m_outer] - m_box.lower[m_outer]), least_inner = narrow * (upper - lower);
-    std::vector<double> places, weights;
+/** Gauss points along the outer axis, between its breaks. */
+std::vector<LevelRule::OuterNode> LevelRule::outer_nodes(const GaussLine& line) {
+    const double least_width = narrow * (m_box.upper[m_outer] - m_box.lower[m_outer]);
     const std::vector<double> breaks = outer_breaks();
+    std::vector<OuterNode> nodes;
     for (std::size_t piece = 0; piece + 1 < breaks.size(); ++piece) {
         const double width = breaks[piece + 1] - breaks[piece];
-        for (std::size_t i = 0; width > least_width && i < n; ++i) {
-            places.push_back(breaks[piece] + 0.5 * width * (1 + line.points[i]));
-            weights.push_back(0.5 * width * line.weights[i]);
+        for (std::size_t i = 0; width > least_width && i < line.points.size(); ++i) {
+            nodes.push_back({breaks[piece] + 0.5 * width * (1 + line.points[i]),
+                             0.5 * width * line.weights[i],
+                             {m_box.lower[m_inner], m_box.upper[m_inner]}});
         }
     }
+    return nodes;
+}
 
-    // Along the inner axis, each end has one zero at most.
-    std::vector<std::vector<double>> inner_breaks(places.size(), {lower, upper});
-    for (const End& end : m_ends) {
-        if (!end.has_zeros) {
-            continue;
-        }
-        std::vector<Vector3> points;
-        for (const double place : places) {
-            points.push_back(point(place, lower, end.height));
-            points.push_back(point(place, upper, end.height));
-        }
-        const std::vector<LevelSample> samples = m_function.at(points);
-        std::vector<Vector3> crossed;
-        std::vector<std::size_t> of_place;
-        for (std::size_t i = 0; i < places.size(); ++i) {
-            if (is_positive(samples[2 * i].value) != is_positive(samples[2 * i + 1].value)) {
-                crossed.push_back(points[2 * i]);
-                of_place.push_back(i);
-            }
-        }
-        const std::vector<double> found = roots(m_inner, crossed, lower, upper);
-        for (std::size_t i = 0; i < found.size(); ++i) {
-            inner_breaks[of_place[i]].push_back(found[i]);
+/** Where, along the inner axis, an end has its zero: it is one at most. */
+void LevelRule::add_inner_breaks(const End& end, std::vector<OuterNode>& nodes) {
+    const double lower = m_box.lower[m_inner], upper = m_box.upper[m_inner];
+    std::vector<Vector3> points;
+    for (const OuterNode& node : nodes) {
+        points.push_back(point(node.outer, lower, end.height));
+        points.push_back(point(node.outer, upper, end.height));
+    }
+    const std::vector<LevelSample> samples = m_function.at(points);
+    std::vector<Vector3> crossed;
+    std::vector<std::size_t> of_node;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (is_positive(samples[2 * i].value) != is_positive(samples[2 * i + 1].value)) {
+            crossed.push_back(points[2 * i]);
+            of_node.push_back(i);
         }
     }
+    const std::vector<double> found = roots(m_inner, crossed, lower, upper);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        nodes[of_node[i]].inner_breaks.push_back(found[i]);
+    }
+}
 
-    struct Piece {
-        std::size_t place = 0;
-        double from = 0, to = 0;
-    };
-    std::vector<Piece> pieces;
+/** Between the inner breaks of each node, those pieces over which the expression has different signs at the ends. */
+std::vector<LevelRule::InnerPiece> LevelRule::crossed_pieces(std::vector<OuterNode>& nodes) {
+    const double least_width = narrow * (m_box.upper[m_inner] - m_box.lower[m_inner]);
+    std::vector<InnerPiece> pieces;
     std::vector<Vector3> middles;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        std::ranges::sort(inner_breaks[i]);
-        for (std::size_t piece = 0; piece + 1 < inner_breaks[i].size(); ++piece) {
-            const double from = inner_breaks[i][piece], to = inner_breaks[i][piece + 1];
-            if (to - from > least_inner) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        std::vector<double>& breaks = nodes[i].inner_breaks;
+        std::ranges::sort(breaks);
+        for (std::size_t piece = 0; piece + 1 < breaks.size(); ++piece) {
+            const double from = breaks[piece], to = breaks[piece + 1];
+            if (to - from > least_width) {
                 pieces.push_back({i, from, to});
-                middles.push_back(point(places[i], 0.5 * (from + to), m_ends[0].height));
-                middles.push_back(point(places[i], 0.5 * (from + to), m_ends[1].height));
+                middles.push_back(point(nodes[i].outer, 0.5 * (from + to), m_ends[0].height));
+                middles.push_back(point(nodes[i].outer, 0.5 * (from + to), m_ends[1].height));
             }
         }
     }
     const std::vector<LevelSample> samples = m_function.at(middles);
-    std::vector<BaseNode> nodes;
+    std::vector<InnerPiece> crossed;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
-        if (is_positive(samples[2 * i].value) == is_positive(samples[2 * i + 1].value)) {
-            continue;
+        if (is_positive(samples[2 * i].value) != is_positive(samples[2 * i + 1].value)) {
+            crossed.push_back(pieces[i]);
         }
-        const auto& [place, from, to] = pieces[i];
+    }
+    return crossed;
+}
+
+/** Gauss points of the part of the base over which the expression has different signs at the ends. */
+std::vector<LevelRule::BaseNode> LevelRule::base_nodes(unsigned n) {
+    const GaussLine& line = gauss_line(n);
+    std::vector<OuterNode> outer = outer_nodes(line);
+    for (const End& end : m_ends) {
+        if (end.has_zeros) {
+            add_inner_breaks(end, outer);
+        }
+    }
+    std::vector<BaseNode> nodes;
+    for (const auto& [index, from, to] : crossed_pieces(outer)) {
         for (std::size_t j = 0; j < n; ++j) {
-            nodes.push_back({places[place], from + 0.5 * (to - from) * (1 + line.points[j]),
-                             weights[place] * 0.5 * (to - from) * line.weights[j]});
+            nodes.push_back({outer[index].outer, from + 0.5 * (to - from) * (1 + line.points[j]),
+                             outer[index].weight * 0.5 * (to - from) * line.weights[j]});
         }
     }
     return nodes;

@@ -14,6 +14,7 @@
 #include <core/integrate/reference_rule.hpp>
 
 #include <array>
+#include <vector>
 
 namespace elvis {
 
@@ -50,6 +51,17 @@ private:
         double outer = 0, inner = 0, weight = 0;
     };
 
+    struct OuterNode {
+        double outer = 0, weight = 0;
+        /** Where pieces along the inner axis begin and end. */
+        std::vector<double> inner_breaks;
+    };
+    /** Of the inner axis, at an outer node. */
+    struct InnerPiece {
+        std::size_t node = 0;
+        double from = 0, to = 0;
+    };
+
     const LevelSample& sample(std::size_t i, std::size_t j, std::size_t k) const;
     double step(std::size_t axis) const { return (m_box.upper[axis] - m_box.lower[axis]) / (n_lattice - 1); }
     bool is_far_from_zero(const LevelSample& sample, std::array<bool, 3> axes) const;
@@ -62,6 +74,9 @@ private:
     /** Where along an axis the expression is zero between two points at which its signs differ, for many pairs at once. */
     std::vector<double> roots(std::size_t axis, const std::vector<Vector3>& from, double lower, double upper);
     std::vector<double> outer_breaks();
+    std::vector<OuterNode> outer_nodes(const GaussLine& line);
+    void add_inner_breaks(const End& end, std::vector<OuterNode>& nodes);
+    std::vector<InnerPiece> crossed_pieces(std::vector<OuterNode>& nodes);
     std::vector<BaseNode> base_nodes(unsigned n);
 
     LevelFunction& m_function;

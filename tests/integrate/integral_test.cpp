@@ -87,9 +87,11 @@ TEST_CASE("what is no polynomial is divided until it is right") {
 TEST_CASE("the same bits come whatever the threads do, and elements that are inside out are told") {
     const GeneratedVolume ball(
         R"("mesh": "ball", "shape": "mixed", "elements": 2, "geometry_order": 3, "field": "sinc", "order": 5)");
-    const Integral one = integral_of(ball, over(Domain::volume, "sinc * exp(sinc)"));
+    IntegralRequest request = over(Domain::volume, "sinc * exp(sinc)");
+    request.tolerance = 1e-7;
+    const Integral one = integral_of(ball, request);
     for (int again = 0; again < 3; ++again) {
-        CHECK(integral_of(ball, over(Domain::volume, "sinc * exp(sinc)")).value == one.value);
+        CHECK(integral_of(ball, request).value == one.value);
     }
     CHECK(one.n_inverted == 0);
     CHECK(std::abs(one.measure - 4 * std::numbers::pi / 3) < 0.01);

@@ -1,12 +1,17 @@
-# The shared library exports what its header declares, and nothing else.
-#   -DLIBRARY=libelvis.so -DHEADER=elvis.h -DNM=nm
+# The shared library exports what its headers declare, and nothing else.
+#   -DLIBRARY=libelvis.so -DHEADERS=elvis.h,answers.h -DNM=nm
 execute_process(COMMAND "${NM}" --dynamic --defined-only --format=posix "${LIBRARY}" OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "[^\n ]+ [A-Z] [^\n]*" lines "${symbols}")
 list(TRANSFORM lines REPLACE " .*" "")
 list(TRANSFORM lines REPLACE "@.*" "")
 list(SORT lines)
-file(READ "${HEADER}" header)
-string(REGEX MATCHALL "ELVIS_EXPORT [^;(]*[ *]elvis_[a-z0-9_]+\\(" declared "${header}")
+string(REPLACE "," ";" HEADERS "${HEADERS}")
+set(text "")
+foreach(header IN LISTS HEADERS)
+  file(READ "${header}" content)
+  string(APPEND text "${content}")
+endforeach()
+string(REGEX MATCHALL "ELVIS_EXPORT [^;(]*[ *]elvis_[a-z0-9_]+\\(" declared "${text}")
 list(TRANSFORM declared REPLACE ".*[ *](elvis_[a-z0-9_]+)\\(" "\\1")
 list(SORT declared)
 list(LENGTH declared n_declared)

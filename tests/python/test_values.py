@@ -39,10 +39,36 @@ class Values(WithVolume):
         found = self.volume.range("p")
         self.assertTrue(found.certified)
         self.assertLessEqual(found.lower_bound, found.minimum)
+        np.testing.assert_allclose(np.abs(found.minimum_position), 1, atol=1e-12)
         self.assertEqual(self.volume.info()["negative_jacobians"]["n_elements"], 0)
         self.assertEqual({field["name"]: field["exact"] for field in self.report["fields"]}["p"], True)
         self.assertGreater(len(elvis.devices()), 0)
         self.assertIn("org.elvis.native", [plugin["id"] for plugin in elvis.plugins()["plugins"]])
+
+    def test_integrals_are_those_of_the_field(self):
+        # Of p = x^2 y + z over [-1, 1]^3, and of its square.
+        whole = self.volume.integrate("p^2")
+        self.assertTrue(whole.exact and whole.converged)
+        self.assertAlmostEqual(float(whole), 8 * (1 / 5 / 3 + 1 / 3), delta=1e-12)
+        self.assertAlmostEqual(whole.measure, 8, delta=1e-12)
+        self.assertAlmostEqual(self.volume.integrate("y", boundary=["y+"]).value, 4, delta=1e-12)
+        self.assertAlmostEqual(self.volume.integrate("y*grad(y)", boundary=True, flux=True).value, 8, delta=1e-12)
+        self.assertAlmostEqual(self.volume.integrate("x^2", plane=[0, 0, 1, -0.2]).value, 4 / 3, delta=1e-9)
+        sphere = self.volume.integrate(isosurface=0.5, isosurface_field="norm(x*grad(x) + y*grad(y) + z*grad(z))")
+        self.assertAlmostEqual(sphere.measure, np.pi, delta=1e-8)
+        for wrong in (lambda: self.volume.integrate("velocity", flux=True), lambda: self.volume.integrate("p", boundary=["wall"]),
+                      lambda: self.volume.integrate("p", tolerance=2), lambda: self.volume.integrate(isosurface=1)):
+            self.assertRaises(elvis.Error, wrong)
+        self.assertRaises(ValueError, lambda: self.volume.integrate(plane=[1, 0, 0, 0], boundary=True))
+
+    def test_a_line_tells_where_elements_begin_and_end(self):
+        places = self.volume.walk_line([-2, 0.1, 0.2], [2, 0.1, 0.2], ["p", "velocity"])
+        np.testing.assert_allclose([place.distance for place in places], [1, 5 / 3, 7 / 3, 3], atol=1e-13)
+        self.assertIsNone(places[0].before)
+        self.assertIsNone(places[-1].after)
+        self.assertEqual(places[0].after.element, places[1].before.element)
+        self.assertAlmostEqual(places[1].before.values["p"], 0.1 / 9 + 0.2, delta=1e-13)
+        self.assertEqual(places[1].after.values["velocity"].shape, (3,))
 
     def test_a_foreign_file_is_opened_as_it_is(self):
         for files in (self.path("input.json"), [self.path("input.json")]):

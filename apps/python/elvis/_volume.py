@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _elvis
+from ._answers import Break, Integral, breaks_of
 from ._frames import Frames
 from ._library import context
 from ._picture import Picture
@@ -42,6 +43,9 @@ class Range:
     """Proven, not from samples."""
     minimum_element: int
     maximum_element: int
+    minimum_position: Sequence[float]
+    """In the world; NaN if the plugin does not evaluate on the CPU."""
+    maximum_position: Sequence[float]
 
 
 class Volume:
@@ -106,6 +110,36 @@ class Volume:
         with progress_for(progress) as report:
             probed = self._handle.probe(places, names, time_step, report)
         return Samples(places, names, n_values, probed)
+
+    def integrate(self, field: str | None = None, *, boundary: bool | Sequence[str] = False, plane: Sequence[float] | None = None,
+                  isosurface: float | None = None, isosurface_field: str | None = None, flux: bool = False, time_step: int = 0,
+                  tolerance: float = 1e-9, progress: Progress = True) -> Integral:
+        """The integral of a field or expression over the volume, or over one of boundary, plane and isosurface.
+
+        field: None is the number 1. boundary: True, or names of groups. plane: a, b, c, d of ax+by+cz+d=0. isosurface: its value,
+        of `isosurface_field`, or of `field`. flux: the field is a vector, of which the component along the normal is integrated: out of
+        the volume, along (a, b, c), or to larger values. tolerance: of the error, relative to the integral of the magnitude.
+        """
+        if (boundary is not False) + (plane is not None) + (isosurface is not None) > 1:
+            raise ValueError("one of boundary, plane and isosurface")
+        domain = 1 if boundary is not False else 2 if plane is not None else 3 if isosurface is not None else 0
+        groups = [] if isinstance(boundary, bool) else list(boundary)
+        level_field = isosurface_field if isosurface_field is not None else None if flux else field
+        with progress_for(progress) as report:
+            return Integral(**self._handle.integrate(domain, field, groups, [0.0] * 4 if plane is None else list(plane), level_field,
+                                                     0.0 if isosurface is None else isosurface, flux, time_step, tolerance, report))
+
+    def walk_line(self, start: Sequence[float], end: Sequence[float], fields: str | Sequence[str] | None = None, *, time_step: int = 0,
+                  progress: Progress = True) -> list[Break]:
+        """Where the straight line from start to end enters and leaves elements, in order, with the fields as seen from either side.
+
+        fields: names or expressions; None is all fields. For values between these places see `probe`.
+        """
+        names = list(self.fields) if fields is None else [fields] if isinstance(fields, str) else list(fields)
+        n_values = [self._handle.count_values(name) for name in names]
+        with progress_for(progress) as report:
+            places = self._handle.walk_line(list(start), list(end), names, time_step, report)
+        return breaks_of(json.loads(places), names, n_values)
 
     def scene(self, *, field: str | None = None, cut_planes: Sequence[Sequence[float]] = (), boundary: bool | Sequence[str] = False,
               isosurfaces: Sequence[float] | Mapping[str, Sequence[float]] = (), volume: str | None = None,
