@@ -5,17 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace elvis {
 
 namespace {
-
-/** The rows that are kept of a band, and those that are drawn. */
-struct Band {
-    std::uint32_t first = 0, end = 0, first_drawn = 0, end_drawn = 0;
-};
 
 /** Lines look at the pixels around them. */
 std::uint32_t margin_of(const FrameRequest& request) {
@@ -28,60 +26,44 @@ std::uint32_t margin_of(const FrameRequest& request) {
     return part_rows * static_cast<std::uint32_t>(std::ceil(reach / part_rows));
 }
 
-std::vector<Band> bands_of(const FrameRequest& request, std::size_t n) {
+/** The rows that are drawn for those that are kept. */
+Rows drawn_for(const Rows& kept, const FrameRequest& request) {
     const std::uint32_t margin = margin_of(request);
-    const std::uint64_t n_units = (std::uint64_t{request.height} + part_rows - 1) / part_rows;
-    std::vector<Band> bands;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto border = [&](std::size_t band) {
-            return static_cast<std::uint32_t>(std::min<std::uint64_t>(n_units * band / n * part_rows, request.height));
-        };
-        const std::uint32_t first = border(i), end = border(i + 1);
-        if (first < end) {
-            bands.push_back({first, end, first - std::min(first, margin), std::min(end + margin, request.height)});
-        }
-    }
-    return bands;
+    return {kept.first - std::min(kept.first, margin), std::min(kept.end + margin, request.height)};
 }
 
-FrameRequest request_for(const FrameRequest& whole, const Band& band) {
+FrameRequest request_for(const FrameRequest& whole, const Rows& rows) {
     FrameRequest request = whole;
-    request.height = band.end_drawn - band.first_drawn;
-    request.part = {band.first_drawn, whole.height};
+    request.height = rows.end - rows.first;
+    request.part = {rows.first, whole.height};
     return request;
 }
 
-/** All of them, each on a thread of its own; throws what the first of them threw. */
-std::vector<Frame> draw(std::span<Renderer* const> renderers, const FrameRequest& request, const std::vector<Band>& bands,
-                        const TaskControl* control) {
-    std::vector<Frame> frames(bands.size());
-    std::vector<std::exception_ptr> failures(bands.size());
-    {
-        std::vector<std::jthread> threads;
-        for (std::size_t i = 0; i < bands.size(); ++i) {
-            threads.emplace_back([&, i, &of = host()] {
-                const HostScope scope(of);
-                try {
-                    frames[i] = renderers[i]->render(request_for(request, bands[i]), control);
-                } catch (...) {
-                    failures[i] = std::current_exception();
-                }
-            });
-        }
+/** Leaves the kept rows of what has some numbers a pixel. */
+template <class T> void keep(std::vector<T>& numbers, const Rows& drawn, const Rows& kept, std::size_t row_length) {
+    if (!numbers.empty()) {
+        numbers.resize((kept.end - drawn.first) * row_length);
+        numbers.erase(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>((kept.first - drawn.first) * row_length));
     }
-    for (const std::exception_ptr& failure : failures) {
-        if (failure) {
-            std::rethrow_exception(failure);
-        }
-    }
-    return frames;
 }
 
-/** The band's rows of what has some numbers a pixel. */
-template <class T> void append(const std::vector<T>& from, const Band& band, std::size_t row_length, std::vector<T>& to) {
-    if (!from.empty()) {
-        const auto at = [&](std::uint32_t row) { return from.begin() + static_cast<std::ptrdiff_t>(row * row_length); };
-        to.insert(to.end(), at(band.first - band.first_drawn), at(band.end - band.first_drawn));
+void crop(Frame& frame, const Rows& drawn, const Rows& kept) {
+    const std::size_t width = frame.width;
+    keep(frame.color, drawn, kept, 4 * width);
+    keep(frame.value, drawn, kept, width);
+    keep(frame.depth, drawn, kept, width);
+    keep(frame.element, drawn, kept, width);
+    keep(frame.normal, drawn, kept, 3 * width);
+    keep(frame.flags, drawn, kept, width);
+    frame.height = kept.end - kept.first;
+}
+
+/** Writes the band's rows into a vector that has room for all. */
+template <class T>
+void put(const std::vector<T>& band, const Rows& rows, const FrameRequest& whole, std::size_t row_length, std::vector<T>& all) {
+    if (!band.empty()) {
+        all.resize(whole.height * row_length);
+        std::copy(band.begin(), band.end(), all.begin() + static_cast<std::ptrdiff_t>(rows.first * row_length));
     }
 }
 
@@ -139,32 +121,116 @@ void add_part(const Frame& part, Frame& whole) {
     for (std::size_t i = 0; i < part.is_met.size(); ++i) {
         whole.is_met[i] = whole.is_met[i] || part.is_met[i];
     }
-    whole.render_milliseconds = std::max(whole.render_milliseconds, part.render_milliseconds);
-    whole.device_milliseconds = std::max(whole.device_milliseconds, part.device_milliseconds);
     whole.submissions += part.submissions;
     whole.host_waits += part.host_waits;
 }
 
+/** What renderers share while they draw. */
+struct Work {
+    const FrameRequest& request;
+    std::uint32_t n_rows;
+    const TaskControl* control;
+    const std::function<void(const Frame&, const Rows&)>& take;
+    std::mutex mutex{};
+    std::uint32_t next_row = 0;
+    Frame sum{};
+    std::exception_ptr failure{};
+
+    std::optional<Rows> next() {
+        const std::lock_guard lock(mutex);
+        if (failure || next_row >= request.height) {
+            return std::nullopt;
+        }
+        const Rows rows{next_row, std::min(request.height, next_row + n_rows)};
+        next_row = rows.end;
+        return rows;
+    }
+};
+
+void draw_bands(Renderer& renderer, Work& work) {
+    double milliseconds = 0, device_milliseconds = 0;
+    try {
+        while (const std::optional<Rows> rows = work.next()) {
+            const Rows drawn = drawn_for(*rows, work.request);
+            Frame frame = renderer.render(request_for(work.request, drawn), work.control);
+            milliseconds += frame.render_milliseconds;
+            device_milliseconds += frame.device_milliseconds;
+            crop(frame, drawn, *rows);
+            const std::lock_guard lock(work.mutex);
+            add_part(frame, work.sum);
+            work.take(frame, *rows);
+        }
+    } catch (...) {
+        const std::lock_guard lock(work.mutex);
+        work.failure = work.failure ? work.failure : std::current_exception();
+    }
+    const std::lock_guard lock(work.mutex);
+    work.sum.render_milliseconds = std::max(work.sum.render_milliseconds, milliseconds);
+    work.sum.device_milliseconds = std::max(work.sum.device_milliseconds, device_milliseconds);
+}
+
+std::uint32_t whole_units(std::uint64_t n_rows) {
+    return static_cast<std::uint32_t>(std::max<std::uint64_t>(part_rows, n_rows / part_rows * part_rows));
+}
+
 } // namespace
 
-Frame render_in_bands(std::span<Renderer* const> renderers, const FrameRequest& request, const TaskControl* control) {
-    const std::vector<Band> bands = bands_of(request, renderers.size());
-    std::vector<Frame> frames = draw(renderers, request, bands, control);
-    Frame whole;
-    whole.width = request.width;
-    whole.height = request.height;
-    for (std::size_t i = 0; i < bands.size(); ++i) {
-        const Frame& part = frames[i];
-        const std::size_t width = request.width;
-        append(part.color, bands[i], 4 * width, whole.color);
-        append(part.value, bands[i], width, whole.value);
-        append(part.depth, bands[i], width, whole.depth);
-        append(part.element, bands[i], width, whole.element);
-        append(part.normal, bands[i], 3 * width, whole.normal);
-        append(part.flags, bands[i], width, whole.flags);
-        add_part(part, whole);
+Frame render_bands(std::span<Renderer* const> renderers, const FrameRequest& request, std::uint32_t n_rows,
+                   const TaskControl* control, const std::function<void(const Frame& band, const Rows& rows)>& take) {
+    Work work{request, n_rows, control, take};
+    {
+        std::vector<std::jthread> threads;
+        for (Renderer* const renderer : renderers.subspan(1)) {
+            threads.emplace_back([&work, renderer, &of = host()] {
+                const HostScope scope(of);
+                draw_bands(*renderer, work);
+            });
+        }
+        draw_bands(*renderers.front(), work);
     }
-    whole.counts.pixels = std::uint64_t{request.width} * request.height;
+    if (work.failure) {
+        std::rethrow_exception(work.failure);
+    }
+    work.sum.width = request.width;
+    work.sum.height = request.height;
+    work.sum.counts.pixels = std::uint64_t{request.width} * request.height;
+    return std::move(work.sum);
+}
+
+std::uint32_t rows_a_band(std::span<Renderer* const> renderers, const FrameRequest& request) {
+    const std::uint64_t n_units = (std::uint64_t{request.height} + part_rows - 1) / part_rows;
+    std::uint64_t n_rows = (n_units + renderers.size() - 1) / renderers.size() * part_rows;
+    const std::uint64_t margins = 2 * margin_of(request);
+    for (const Renderer* const renderer : renderers) {
+        const std::uint64_t most = renderer->most_pixels(request) / std::max(1u, request.width);
+        if (request.height > most) {
+            n_rows = std::min(n_rows, most - std::min(most, margins));
+        }
+    }
+    return whole_units(n_rows);
+}
+
+Frame render_in_bands(std::span<Renderer* const> renderers, const FrameRequest& request, const TaskControl* control) {
+    const std::uint32_t n_rows = rows_a_band(renderers, request);
+    if (n_rows >= request.height) {
+        return renderers.front()->render(request, control);
+    }
+    Frame pixels;
+    Frame whole = render_bands(renderers, request, n_rows, control, [&](const Frame& band, const Rows& rows) {
+        const std::size_t width = request.width;
+        put(band.color, rows, request, 4 * width, pixels.color);
+        put(band.value, rows, request, width, pixels.value);
+        put(band.depth, rows, request, width, pixels.depth);
+        put(band.element, rows, request, width, pixels.element);
+        put(band.normal, rows, request, 3 * width, pixels.normal);
+        put(band.flags, rows, request, width, pixels.flags);
+    });
+    whole.color = std::move(pixels.color);
+    whole.value = std::move(pixels.value);
+    whole.depth = std::move(pixels.depth);
+    whole.element = std::move(pixels.element);
+    whole.normal = std::move(pixels.normal);
+    whole.flags = std::move(pixels.flags);
     return whole;
 }
 

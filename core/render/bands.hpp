@@ -1,20 +1,36 @@
 /**
  * @file bands.hpp
- * One picture by several devices.
+ * One picture in bands of rows: by several devices, or by one whose buffers are too small for all of it.
  */
 #pragma once
 
 #include <core/render/renderer.hpp>
 
+#include <cstdint>
+#include <functional>
 #include <span>
 
 namespace elvis {
 
+/** Rows of a picture. */
+struct Rows {
+    std::uint32_t first = 0, end = 0;
+};
+
 /**
- * Each renderer draws some of the rows, all at the same time. On devices of one kind the picture is that of one of them, to the
- * bit. Counts of work add up: near the borders between bands some of it is done twice. Times are those of the slowest. The
- * renderers are of the same volume, opened once for each. Throws what one of them throws.
+ * Draws the picture in bands of so many rows, a multiple of part_rows, and gives each with its rows to `take`, in any order,
+ * one at a time. Renderers take bands at the same time; on devices of one kind each row is that of the whole picture, to the
+ * bit. Returns counts and times, which `take` need not look at: work adds up, and near the borders between bands some of it is
+ * done twice; times are those of the slowest renderer. The renderers are of the same volume, opened once for each. Throws what
+ * one throws.
  */
+Frame render_bands(std::span<Renderer* const> renderers, const FrameRequest& request, std::uint32_t n_rows,
+                   const TaskControl* control, const std::function<void(const Frame& band, const Rows& rows)>& take);
+
+/** Rows a band: as many as the devices can bind buffers for, and few enough that each renderer has a band. */
+std::uint32_t rows_a_band(std::span<Renderer* const> renderers, const FrameRequest& request);
+
+/** The whole picture in such bands; by the one renderer as it is if there is one, and it fits. */
 Frame render_in_bands(std::span<Renderer* const> renderers, const FrameRequest& request, const TaskControl* control = nullptr);
 
 } // namespace elvis

@@ -7,6 +7,7 @@
 #include <core/render/picture/picture_rows.hpp>
 #include <core/render/prepared_request.hpp>
 #include <core/render/renderer.hpp>
+#include <core/render/volume/volume_pass.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -162,6 +163,13 @@ Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision 
 Renderer::~Renderer() = default;
 
 VolumeRanges& Renderer::ranges() { return m_impl->ranges; }
+
+std::uint64_t Renderer::most_pixels(const FrameRequest& request) const {
+    // The largest buffer: of colours, of two crossings with isosurfaces a pixel, of states of rays in a volume.
+    const Precision precision = m_impl->data.precision();
+    const std::size_t of_surfaces = std::max(4 * real_bytes(precision), 2 * sample_bytes(precision));
+    return m_impl->device.max_binding_bytes() / (request.volume ? volume_state_bytes(precision) : of_surfaces);
+}
 
 Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
     Impl& impl = *m_impl;

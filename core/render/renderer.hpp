@@ -50,6 +50,9 @@ public:
      */
     Frame render(const FrameRequest& request, const TaskControl* control = nullptr);
 
+    /** Pixels of such a picture that the device can bind buffers for. */
+    std::uint64_t most_pixels(const FrameRequest& request) const;
+
     /** Values of a field, or of all, have changed, at any time step: the next frame asks the plugin for all that rests on them.
      */
     void forget_fields(std::optional<std::uint32_t> only = {});

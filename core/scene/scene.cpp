@@ -65,6 +65,9 @@ void read_image(const JsonObject& image, const std::string& path, Scene& scene) 
         const std::vector<double> size = image.numbers("size");
         scene.size = {static_cast<std::uint32_t>(size[0]), static_cast<std::uint32_t>(size[1])};
     }
+    if (image.has("samples")) {
+        scene.samples = static_cast<std::uint32_t>(image.number("samples"));
+    }
     if (image.has("background")) {
         const std::vector<double> color = image.numbers("background");
         std::copy(color.begin(), color.end(), scene.background.begin());

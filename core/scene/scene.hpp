@@ -145,6 +145,8 @@ struct Scene {
     SceneCamera camera;
     std::array<std::uint32_t, 2> size{1024, 768};
     std::array<double, 4> background{1, 1, 1, 1};
+    /** Each pixel of a still picture's colours is the mean of so many across and down. */
+    std::uint32_t samples = 1;
     /** Nothing is written on the picture if absent: then its colours are those of the surfaces. */
     std::optional<SceneAnnotation> annotation;
     SceneColorMap color_map;

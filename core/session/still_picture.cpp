@@ -3,6 +3,7 @@
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
+#include <core/session/supersampled.hpp>
 
 #include <fmt/format.h>
 
@@ -32,8 +33,14 @@ StillPicture draw_request(const Scene& scene, FrameRequest request, const Runtim
     still.request.sharing = options.sharing;
     std::vector<Renderer*> renderers{&renderer};
     renderers.insert(renderers.end(), options.others.begin(), options.others.end());
-    still.frame =
-        renderers.size() == 1 ? renderer.render(still.request, control) : render_in_bands(renderers, still.request, control);
+    still.frame = render_in_bands(renderers, still.request, control);
+    if (scene.samples > 1) {
+        // All but the colours is that of the picture itself: flags and counts are of its pixels.
+        SupersampledColors fine = supersampled(renderers, still.request, scene.samples, control);
+        still.frame.color = std::move(fine.color);
+        still.frame.render_milliseconds += fine.render_milliseconds;
+        still.frame.device_milliseconds += fine.device_milliseconds;
+    }
     if (scene.annotation) {
         const AnnotationRequest annotation = make_annotation_request(*scene.annotation, still.request, still.frame, volume);
         for (const std::string& name : annotate(still.frame, annotation)) {

@@ -116,6 +116,10 @@ void add_picture(CLI::App& command, RenderArguments& a) {
     command.add_option("--annotation", a.annotation, "none, or default: color bars, axes and a title")
         ->check(CLI::IsMember({"none", "default"}));
     command.add_option("--size", a.size, "WIDTHxHEIGHT");
+    command
+        .add_option("--samples", a.samples,
+                    "N: each pixel is the mean of N by N, so that lines and silhouettes are smooth; buffers are those without")
+        ->check(CLI::Range(1, 8));
     command.add_option("--precision", a.precision, "float32 or float64")
         ->check(CLI::IsMember(words_of("/properties/precision")));
     CLI::Option* const device =

@@ -267,6 +267,9 @@ std::array<unsigned, 2> size_of(const std::string& text) {
 }
 
 void apply_image(const RenderArguments& arguments, Document& scene) {
+    if (arguments.samples > 0) {
+        scene.set("/image/samples", arguments.samples);
+    }
     if (!arguments.background.empty()) {
         const std::vector<double> color = numbers("--background", arguments.background, 3, 4);
         if (!std::ranges::all_of(color, [](double channel) { return 0 <= channel && channel <= 1; })) {

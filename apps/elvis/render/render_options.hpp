@@ -48,6 +48,7 @@ struct RenderArguments {
     double field_of_view = 0;
     double orthographic = 0;
     std::string background;
+    std::uint32_t samples = 0;
     std::string annotation;
     std::string lighting;
     std::string size;

@@ -47,9 +47,6 @@ struct PixelParameters {
  */
 constexpr double color_share = 0.25;
 
-/** Bytes of one core_volume_state. */
-std::size_t state_bytes(Precision precision) { return 10 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
-
 double largest(const std::array<double, 3>& numbers) {
     return std::max({std::abs(numbers[0]), std::abs(numbers[1]), std::abs(numbers[2])});
 }
@@ -267,7 +264,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
 void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
                       FrameCounts& counts) {
     const Layer& layer = merged.picture();
-    const Buffer& states = provide_buffer(m_states, m_device, layer.n_pixels() * state_bytes(m_precision));
+    const Buffer& states = provide_buffer(m_states, m_device, layer.n_pixels() * volume_state_bytes(m_precision));
     write_view(m_frame, m_precision, view);
     m_walk_data.look_from(start);
     Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live};

@@ -23,6 +23,9 @@
 
 namespace elvis {
 
+/** Of one core_volume_state. */
+inline std::size_t volume_state_bytes(Precision precision) { return 10 * real_bytes(precision) + 4 * sizeof(std::uint32_t); }
+
 /** The kernels of one volume and of the field that the transfer function is of, for each element class. */
 class VolumePass {
 public:

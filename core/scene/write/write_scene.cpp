@@ -48,6 +48,9 @@ SceneJson volume_json(const Scene& scene, const std::string& path) {
 SceneJson image_json(const Scene& scene, const std::string& path) {
     SceneJson json;
     json["size"] = scene.size;
+    if (scene.samples > 1) {
+        json["samples"] = scene.samples;
+    }
     json["background"] = scene.background;
     if (scene.annotation) {
         json["annotation"] = annotation_json(*scene.annotation, path);

@@ -120,6 +120,38 @@ TEST_CASE("Several devices draw the picture of one of them, to the bit") {
     }
 }
 
+TEST_CASE("One device draws bands one after the other, to the bit, where its buffers are too small for all rows") {
+    ::setenv("ELVIS_PLUGIN_PATH", ELVIS_TEST_PLUGINS, 1);
+    const PluginRegistry registry;
+    const BenchFolder folder("");
+    Drawer one(registry, folder, Precision::float32);
+    Renderer* const renderer = &one.renderer;
+    for (const auto& [name, request] : requests()) {
+        INFO(name);
+        const Frame whole = one.renderer.render(request);
+        std::vector<double> color(whole.color.size());
+        std::uint32_t n_bands = 0;
+        const Frame sum =
+            render_bands(std::span(&renderer, 1), request, part_rows, nullptr, [&](const Frame& band, const Rows& rows) {
+                REQUIRE(band.color.size() == 4 * std::size_t{width} * (rows.end - rows.first));
+                std::ranges::copy(band.color, color.begin() + static_cast<std::ptrdiff_t>(4 * width * rows.first));
+                ++n_bands;
+            });
+        CHECK(color == whole.color);
+        CHECK(n_bands == (height + part_rows - 1) / part_rows);
+        CHECK(sum.counts.pixels == whole.counts.pixels);
+    }
+    // As many rows as can be bound, or all.
+    FrameRequest request = sized(waves_cut_plane(1));
+    CHECK(rows_a_band(std::span(&renderer, 1), request) >= request.height);
+    request.width = 32768;
+    request.height = 32768;
+    const std::uint32_t n_rows = rows_a_band(std::span(&renderer, 1), request);
+    CHECK(n_rows % part_rows == 0);
+    CHECK(n_rows < request.height);
+    CHECK(std::uint64_t{n_rows} * request.width <= one.renderer.most_pixels(request));
+}
+
 TEST_CASE("There may be more devices than rows for them, and what one of them throws is thrown") {
     ::setenv("ELVIS_PLUGIN_PATH", ELVIS_TEST_PLUGINS, 1);
     const PluginRegistry registry;

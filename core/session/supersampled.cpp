@@ -1,0 +1,82 @@
+#include <core/session/supersampled.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace elvis {
+
+namespace {
+
+constexpr std::size_t n_channels = 4;
+
+FrameRequest finer(const FrameRequest& request, std::uint32_t n) {
+    FrameRequest fine = request;
+    fine.width *= n;
+    fine.height *= n;
+    fine.with_buffers = false;
+    for (double& shift : fine.camera.image_shift) {
+        shift *= n;
+    }
+    for (Surface& surface : fine.surfaces) {
+        if (surface.contours) {
+            surface.contours->style.width *= n;
+        }
+        if (surface.mesh_lines) {
+            surface.mesh_lines->style.width *= n;
+        }
+        if (auto* const wires = std::get_if<WireFrame>(&surface.geometry)) {
+            wires->width *= n;
+        }
+    }
+    return fine;
+}
+
+/** Of n by n pixels of a band, from the first of them on. */
+std::array<double, n_channels> mean(const Frame& band, std::size_t row, std::size_t column, std::uint32_t n) {
+    std::array<double, n_channels> sum{};
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            const double* const color = &band.color[n_channels * ((row + i) * band.width + column + j)];
+            for (std::size_t channel = 0; channel < 3; ++channel) {
+                sum[channel] += color[3] * color[channel];
+            }
+            sum[3] += color[3];
+        }
+    }
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        sum[channel] = sum[3] > 0 ? sum[channel] / sum[3] : 0;
+    }
+    sum[3] /= n * n;
+    return sum;
+}
+
+/** Rows of the fine picture that make up whole rows of the coarse one, about as many as fit, in some million pixels. */
+std::uint32_t fine_rows(std::span<Renderer* const> renderers, const FrameRequest& fine, std::uint32_t n) {
+    constexpr std::uint32_t most_pixels = 1u << 22;
+    const std::uint32_t unit = part_rows * n;
+    const std::uint32_t most = std::min(rows_a_band(renderers, fine), most_pixels / std::max(1u, fine.width));
+    return std::max(unit, most / unit * unit);
+}
+
+} // namespace
+
+SupersampledColors supersampled(std::span<Renderer* const> renderers, const FrameRequest& request, std::uint32_t n,
+                                const TaskControl* control) {
+    const FrameRequest fine = finer(request, n);
+    SupersampledColors result;
+    result.color.resize(n_channels * request.width * request.height);
+    const auto take = [&](const Frame& band, const Rows& rows) {
+        for (std::uint32_t row = rows.first / n; row < rows.end / n; ++row) {
+            for (std::size_t column = 0; column < request.width; ++column) {
+                const std::array<double, n_channels> color = mean(band, row * n - rows.first, column * n, n);
+                std::copy(color.begin(), color.end(), &result.color[n_channels * (std::size_t{row} * request.width + column)]);
+            }
+        }
+    };
+    const Frame work = render_bands(renderers, fine, fine_rows(renderers, fine, n), control, take);
+    result.render_milliseconds = work.render_milliseconds;
+    result.device_milliseconds = work.device_milliseconds;
+    return result;
+}
+
+} // namespace elvis
