@@ -41,7 +41,7 @@ const std::vector<std::string>& documents() {
             "field": "norm(curl(u))", "precision": "float64",
             "camera": {"type": "orthographic", "eye": [1.0, 2.0, 0.1], "look_at": [0.25, 0.0, 0.0], "up": [0.0, 0.0, 1.0],
                        "field_of_view": 33.3, "height": 4.5, "near": 0.125, "image_shift": [0.5, -0.25]},
-            "image": {"size": [640, 480], "background": [0.1, 0.2, 0.3, 0.4],
+            "image": {"size": [640, 480], "samples": 3, "background": [0.1, 0.2, 0.3, 0.4],
                       "annotation": {"title": "A title", "color_bars": false, "axes": true,
                                      "texts": [{"text": "here", "position": [0.1, 0.9], "anchor": [0.5, 0.5], "size": 0.05,
                                                 "color": [1.0, 0.0, 0.0]}],
