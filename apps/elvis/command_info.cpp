@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "library_context.hpp"
 #include "open_volume.hpp"
+#include "warp_option.hpp"
 
 #include <core/base/counted.hpp>
 
@@ -21,6 +22,7 @@ using nlohmann::ordered_json;
 struct Arguments {
     std::vector<std::string> files;
     std::string plugin;
+    WarpArguments warp;
     std::uint32_t time_step = 0;
     double jacobian_tolerance = 1e-9;
     bool lists_all = false;
@@ -137,6 +139,7 @@ void add_info(CLI::App& app) {
     auto a = std::make_shared<Arguments>();
     command->add_option("volume", a->files, "Volume, whatever its format (geometry first, then field files)")->required();
     command->add_option("--plugin", a->plugin, "Id of the plugin (default: the one surest of the file)");
+    add_warp(*command, a->warp);
     command->add_option("--time-step", a->time_step, "Time step whose ranges are given");
     command
         ->add_option("--jacobian-tolerance", a->jacobian_tolerance,
@@ -149,7 +152,8 @@ void add_info(CLI::App& app) {
     command->add_flag("--json", a->json, "Answer in JSON");
     command->callback([a] {
         const context library = library_context();
-        const data volume = open_watched([&](const task& watch) { return library.open(a->files, a->plugin, {}, watch); });
+        const data volume = warped(open_watched([&](const task& watch) { return library.open(a->files, a->plugin, {}, watch); }),
+                                   a->warp, a->time_step);
         auto options = detail::sized<elvis_describe_options>();
         options.flags = ELVIS_DESCRIBE_JACOBIAN_TOLERANCE | (a->lists_all ? ELVIS_DESCRIBE_ALL : 0u);
         options.time_step = a->time_step;

@@ -1,6 +1,7 @@
 #include "commands.hpp"
 #include "library_context.hpp"
 #include "open_volume.hpp"
+#include "warp_option.hpp"
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -26,6 +27,7 @@ namespace {
 struct Arguments {
     std::vector<std::string> files;
     std::string plugin;
+    WarpArguments warp;
     std::vector<std::string> points;
     std::string points_file;
     std::vector<std::string> expressions;
@@ -274,7 +276,8 @@ void run(const Arguments& arguments) {
     const std::vector<double> positions = positions_of(arguments);
     const context library = library_context(arguments.device);
     const data volume =
-        open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); });
+        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
+               arguments.warp, arguments.time_step);
     const Answers answers(volume, arguments, positions);
     arguments.json ? print_json(answers) : print_table(answers);
     std::size_t n_unknown = 0;
@@ -300,6 +303,7 @@ void add_probe(CLI::App& app) {
         ->add_option("--field", arguments->expressions,
                      "Expression over the fields, e.g. \"norm(curl(u))\", to evaluate as well (repeatable)")
         ->allow_extra_args(false);
+    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command
         ->add_option("--evaluate", arguments->evaluation,

@@ -201,6 +201,18 @@ public:
         result["unresolved"] = found.n_unresolved;
         return result;
     }
+    std::unique_ptr<Volume> warp(const std::string& field, double factor, const std::optional<std::string>& imaginary,
+                                 double phase, std::uint32_t time_step, const py::object& progress) const {
+        auto wanted = detail::sized<elvis_warp>();
+        wanted.time_step = time_step;
+        wanted.field = field.c_str();
+        wanted.imaginary = imaginary ? imaginary->c_str() : nullptr;
+        wanted.factor = factor;
+        wanted.phase = phase;
+        std::optional<data> displaced;
+        run(progress, [&](const task& watch) { displaced.emplace(m_data.warp(wanted, watch)); });
+        return std::make_unique<Volume>(m_context, std::move(*displaced));
+    }
     /** JSON: see elvis_data_walk_line. */
     std::string walk_line(const std::array<double, 3>& from, const std::array<double, 3>& to,
                           const std::vector<std::string>& fields, std::uint32_t time_step, const py::object& progress) const {
@@ -411,6 +423,8 @@ PYBIND11_MODULE(_elvis, module) {
         .def("integrate", &Volume::integrate, py::arg("domain"), py::arg("field"), py::arg("groups"), py::arg("plane"),
              py::arg("level_field"), py::arg("isovalue"), py::arg("flux"), py::arg("time_step"), py::arg("tolerance"),
              py::arg("progress"))
+        .def("warp", &Volume::warp, py::arg("field"), py::arg("factor"), py::arg("imaginary"), py::arg("phase"),
+             py::arg("time_step"), py::arg("progress"))
         .def("walk_line", &Volume::walk_line, py::arg("start"), py::arg("end"), py::arg("fields"), py::arg("time_step"),
              py::arg("progress"))
         .def("update_field", &Volume::update_field, py::arg("field"), py::arg("time_step"), py::arg("element_class"),

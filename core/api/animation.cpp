@@ -29,12 +29,12 @@ elvis_result elvis_animation_create(elvis_data* data, const elvis_scene* scene, 
         if (!scene->state.scene.animation) {
             throw InvalidArgument("scene", "has no animation");
         }
-        const DataTask running(*data->state, nullptr);
-        Scene shown = scene_for(*data->state, scene->state.scene);
+        const std::shared_ptr<Data> state = shown_data(data->state, scene->state.scene, nullptr);
+        const DataTask running(*state, nullptr);
+        Scene shown = scene_for(*state, scene->state.scene);
         const Precision precision = precision_of(shown);
-        VolumeRanges& ranges = data->state->renderer(precision).ranges();
-        *animation =
-            new elvis_animation{{data->state, precision, AnimationPictures(std::move(shown), data->state->volume, ranges)}};
+        VolumeRanges& ranges = state->renderer(precision).ranges();
+        *animation = new elvis_animation{{data->state, precision, AnimationPictures(std::move(shown), state->volume, ranges)}};
     });
 }
 
@@ -67,11 +67,12 @@ elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame, 
         }
         Animation& state = animation->state;
         frame_of(state, frame);
-        const DataTask running(*state.data, task);
-        Renderer& renderer = state.data->renderer(state.precision);
-        *picture = new_picture(state.data, state.precision,
-                               state.pictures.draw(frame, renderer, still_options(*state.data, state.precision, known),
-                                                   state.data->control.get()));
+        const std::shared_ptr<Data> shown = shown_data(state.data, state.pictures.scene_of(frame), task);
+        const DataTask running(*shown, task);
+        Renderer& renderer = shown->renderer(state.precision);
+        *picture = new_picture(shown, state.precision,
+                               state.pictures.draw(frame, shown->volume, renderer,
+                                                   still_options(*shown, state.precision, known), shown->control.get()));
     });
 }
 
@@ -79,8 +80,9 @@ elvis_result elvis_animation_get_remarks(elvis_animation* animation, char** text
     return call(animation, [&] {
         need(text, "text");
         Animation& state = animation->state;
-        const DataTask running(*state.data, nullptr);
-        const nlohmann::json list = state.pictures.missed(state.data->renderer(state.precision).ranges());
+        const std::shared_ptr<Data> shown = shown_data(state.data, state.pictures.scene_of(0), nullptr);
+        const DataTask running(*shown, nullptr);
+        const nlohmann::json list = state.pictures.missed(shown->renderer(state.precision).ranges());
         *text = text_for_caller(list.dump());
     });
 }

@@ -44,6 +44,8 @@ public:
     Arrays(const elvis_arrays& arrays, const std::string& name, const TaskControl& control);
 
     RuntimeVolume open(const std::string& name, const TaskControl* control);
+    /** As they are now: updates do not change it. */
+    std::shared_ptr<const native::VolumeSource> copy() const { return m_volume->copy(); }
     /** Throws InvalidArgument for a field, step or class that is not there. */
     void update(std::uint32_t field, std::uint32_t time_step, std::uint32_t element_class, const double* values);
 

@@ -4,6 +4,7 @@
 #include <core/scene/frame_request.hpp>
 #include <core/session/describe_volume.hpp>
 #include <core/session/open_volume.hpp>
+#include <core/session/warped.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -16,6 +17,7 @@ Data::Data(std::shared_ptr<Context> with, std::unique_ptr<TaskControl> watch, Ru
 
 Data::~Data() {
     const HostScope scope(context->host);
+    m_warped.reset();
     m_others.clear();
     m_renderer.reset();
     m_prober.reset();
@@ -62,7 +64,28 @@ Prober& Data::prober(ProbeOptions::Evaluation evaluation) {
     return *m_prober;
 }
 
+std::shared_ptr<Data> Data::warped(const SceneWarp& warp, std::uint32_t time_step) {
+    if (!m_warped || m_warped->warp != warp || m_warped->time_step != time_step) {
+        if (!source) {
+            throw Error(volume.path(), "only native volumes, and what is converted to them, can be displaced (warp)");
+        }
+        m_warped.reset();
+        auto watch = std::make_unique<TaskControl>();
+        watch->wants_to_stop = control->wants_to_stop;
+        const auto open = [numbers = source(), warp, time_step, name = volume.path(), held = source, with = watch.get()] {
+            return open_warped(numbers, warp, time_step, name, with);
+        };
+        RuntimeVolume displaced = open();
+        watch->wants_to_stop = {};
+        auto data = std::make_shared<Data>(context, std::move(watch), std::move(displaced));
+        data->reopen = open;
+        m_warped = {warp, time_step, std::move(data)};
+    }
+    return m_warped->data;
+}
+
 void Data::forget_fields(std::optional<std::uint32_t> only) {
+    m_warped.reset();
     extrema.forget_fields();
     if (m_renderer) {
         m_renderer->forget_fields(only);
@@ -117,13 +140,15 @@ elvis_data* open_files(const std::shared_ptr<Context>& context, const std::vecto
     auto control = std::make_unique<TaskControl>();
     follow(*control, task);
     control->check();
-    const auto open = [file = find_volume(*context->plugins, paths, plugin, options, *control), watch = control.get()] {
-        return file.open(watch);
-    };
+    const VolumeFile file = find_volume(*context->plugins, paths, plugin, options, *control);
+    const auto open = [file, watch = control.get()] { return file.open(watch); };
     RuntimeVolume volume = open();
     follow(*control, nullptr);
     auto state = std::make_shared<Data>(context, std::move(control), std::move(volume));
     state->reopen = open;
+    if (file.plugin->id() == native_plugin_id) {
+        state->source = [file] { return native_source(file.path); };
+    }
     return new elvis_data{std::move(state)};
 }
 
@@ -204,6 +229,7 @@ elvis_result elvis_data_from_arrays(elvis_context* context, const elvis_arrays* 
         RuntimeVolume opened = own->open(called, control.get());
         follow(*control, nullptr);
         auto state = std::make_shared<Data>(context->state, std::move(control), std::move(opened));
+        state->source = [arrays = own.get()] { return arrays->copy(); };
         state->arrays = std::move(own);
         *data = new elvis_data{std::move(state)};
     });
@@ -229,6 +255,22 @@ elvis_result elvis_data_fields_changed(elvis_data* data, uint32_t field) {
             throw InvalidArgument("field", "the volume has " + counted(n_fields, "field"));
         }
         data->state->forget_fields(field != ELVIS_ALL_FIELDS ? std::optional(field) : std::nullopt);
+    });
+}
+
+elvis_result elvis_data_warp(elvis_data* data, const elvis_warp* warp, const elvis_task* task, elvis_data** warped) {
+    return call(data, [&] {
+        need(warped, "warped");
+        *warped = nullptr;
+        const elvis_warp known = known_part(warp, "warp");
+        need(known.field, "field");
+        SceneWarp wanted{known.field, {}, known.factor, known.phase};
+        if (known.imaginary != nullptr) {
+            wanted.imaginary = known.imaginary;
+        }
+        const DataTask running(*data->state, task);
+        check_time_step(data->state->volume, known.time_step);
+        *warped = new elvis_data{data->state->warped(wanted, known.time_step)};
     });
 }
 

@@ -12,6 +12,14 @@ Scene scene_for(const Data& data, Scene scene) {
     return scene;
 }
 
+std::shared_ptr<Data> shown_data(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_task* task) {
+    if (!scene.warp) {
+        return data;
+    }
+    const DataTask running(*data, task);
+    return data->warped(*scene.warp, scene.time_step);
+}
+
 StillOptions still_options(Data& data, Precision precision, const elvis_render_options& options) {
     StillOptions how;
     how.others = data.other_renderers(precision);

@@ -13,6 +13,12 @@ namespace elvis::library {
 /** A scene of these data, whatever volume it names. Throws Error if its annotation's font is not there: before work is done. */
 Scene scene_for(const Data& data, Scene scene);
 
+/**
+ * What a scene shows of data: them, or, where it has a warp, them displaced. The displaced are kept until another warp is
+ * wanted. Not while the data's mutex is held.
+ */
+std::shared_ptr<Data> shown_data(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_task* task);
+
 inline Precision precision_of(const Scene& scene) { return scene.precision.value_or(Precision::float32); }
 
 /** Options of the caller's, which may be null: then all are zero. */

@@ -76,6 +76,8 @@ struct Data {
     FieldExtrema extrema_of(const FieldChoice& field, std::uint32_t time_step);
     /** Evaluating that way; the one before is given up. */
     Prober& prober(ProbeOptions::Evaluation evaluation);
+    /** Displaced; those before are given up. Throws Error where the geometry cannot be displaced so. */
+    std::shared_ptr<Data> warped(const SceneWarp& warp, std::uint32_t time_step);
     /** Values of a field, or of all, have changed. */
     void forget_fields(std::optional<std::uint32_t> only);
     /** min x y z, max x y z. */
@@ -86,6 +88,8 @@ struct Data {
     const std::unique_ptr<TaskControl> control;
     /** Opens the volume once more; empty where it is not from a file. It keeps a temporary file, which outlasts the volume. */
     std::function<RuntimeVolume()> reopen;
+    /** What a native volume's numbers come from; empty for others. */
+    std::function<std::shared_ptr<const native::VolumeSource>()> source;
     const RuntimeVolume volume;
 
     std::mutex mutex;
@@ -100,6 +104,13 @@ private:
         std::optional<Renderer> renderer;
     };
 
+    struct Warped {
+        SceneWarp warp;
+        std::uint32_t time_step = 0;
+        std::shared_ptr<Data> data;
+    };
+
+    std::optional<Warped> m_warped;
     std::optional<Prober> m_prober;
     ProbeOptions::Evaluation m_evaluation = ProbeOptions::Evaluation::automatic;
     std::optional<Renderer> m_renderer;

@@ -65,7 +65,8 @@ elvis_result elvis_data_pick(elvis_data* data, const elvis_scene* scene, double 
         if (!std::isfinite(column) || !std::isfinite(row)) {
             throw InvalidArgument("column, row", "are no finite numbers");
         }
-        Data& state = *data->state;
+        const std::shared_ptr<Data> with = shown_data(data->state, scene->state.scene, task);
+        Data& state = *with;
         const Scene shown = scene_for(state, scene->state.scene);
         const DataTask running(state, task);
         const Picked picked = pick(shown, {column, row}, state.volume, state.renderer(precision_of(shown)),
@@ -83,7 +84,8 @@ elvis_result elvis_data_sample(elvis_data* data, const elvis_scene* scene, elvis
         if (piece >= ELVIS_SAMPLE_PIECES) {
             throw InvalidArgument("piece", "is one of ELVIS_SAMPLE_PIECES, counted from 0");
         }
-        Data& state = *data->state;
+        const std::shared_ptr<Data> with = shown_data(data->state, scene->state.scene, nullptr);
+        Data& state = *with;
         const Scene shown = scene_for(state, scene->state.scene);
         const DataTask running(state, nullptr);
         need_samples(state.volume);
@@ -105,7 +107,8 @@ elvis_result elvis_data_get_percentiles(elvis_data* data, const elvis_scene* sce
         if (!std::ranges::all_of(wanted, [](double part) { return part >= 0 && part <= 1; })) {
             throw InvalidArgument("parts", "are numbers from 0 to 1");
         }
-        Data& state = *data->state;
+        const std::shared_ptr<Data> with = shown_data(data->state, scene->state.scene, task);
+        Data& state = *with;
         Scene shown = scene_for(state, scene->state.scene);
         const DataTask running(state, task);
         need_samples(state.volume);

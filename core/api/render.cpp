@@ -49,13 +49,14 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         *picture = nullptr;
         need(scene, "scene");
         const elvis_render_options known = known_or_zero(options);
-        Data& state = *data->state;
+        const std::shared_ptr<Data> shown = shown_data(data->state, scene->state.scene, task);
+        Data& state = *shown;
         Scene still = scene_for(state, scene->state.scene);
         still.animation.reset();
         resize(still, known);
         const DataTask running(state, task);
         const Precision precision = precision_of(still);
-        *picture = new_picture(data->state, precision,
+        *picture = new_picture(shown, precision,
                                draw_still(still, state.volume, state.renderer(precision),
                                           still_options(state, precision, known), state.control.get()));
     });
@@ -68,19 +69,21 @@ elvis_result elvis_render_for_screen(elvis_data* data, const elvis_scene* scene,
         *picture = nullptr;
         need(scene, "scene");
         const ScreenOptions how = screen_options(known_or_zero(options));
-        Data& state = *data->state;
-        const Scene shown = scene_for(state, scene->state.scene);
+        const std::shared_ptr<Data> shown = shown_data(data->state, scene->state.scene, task);
+        Data& state = *shown;
+        const Scene said = scene_for(state, scene->state.scene);
         const DataTask running(state, task);
-        const Precision precision = precision_of(shown);
-        *picture = new_picture(data->state, precision,
-                               draw_for_screen(shown, state.volume, state.renderer(precision), how, state.control.get()));
+        const Precision precision = precision_of(said);
+        *picture = new_picture(shown, precision,
+                               draw_for_screen(said, state.volume, state.renderer(precision), how, state.control.get()));
     });
 }
 
 elvis_result elvis_data_prepare(elvis_data* data, const elvis_scene* scene, const elvis_task* task) {
     return call(data, [&] {
         need(scene, "scene");
-        const DataTask running(*data->state, task);
-        data->state->renderer(precision_of(scene->state.scene));
+        const std::shared_ptr<Data> shown = shown_data(data->state, scene->state.scene, task);
+        const DataTask running(*shown, task);
+        shown->renderer(precision_of(scene->state.scene));
     });
 }

@@ -104,9 +104,10 @@ elvis_result elvis_scene_complete(const elvis_scene* scene, elvis_data* data, el
         need(complete, "complete");
         *complete = nullptr;
         need(data, "data");
-        Data& state = *data->state;
-        const DataTask running(state, nullptr);
         const Scene& own = scene->state.scene;
+        const std::shared_ptr<Data> shown = shown_data(data->state, own, nullptr);
+        Data& state = *shown;
+        const DataTask running(state, nullptr);
         Scene said = complete_scene(scene_for(state, own), state.volume, state.renderer(precision_of(own)).ranges());
         said.volume = own.volume;
         const std::string& file = scene->state.file;

@@ -5,6 +5,7 @@
  *     numbers        1  2.5  1e-3  pi
  *     operators      + - * / ^   < <= > >= == !=   && || !   condition ? a : b     (conditions are the numbers 1 and 0)
  *     functions      sqrt abs min max sin cos tan asin acos atan atan2 exp log log10 pow norm dot cross
+ *                    modulus(re, im) argument(re, im)
  *     fields         p   u[0]   "heat flux"   'heat flux'[1]
  *     coordinates    x y z
  *     derivatives    d(e, x)  grad(e)  div(v)  curl(v)  vorticity(v)  laplacian(e)  q_criterion(v)

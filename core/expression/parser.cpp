@@ -328,6 +328,14 @@ private:
             return m_values.number_value(m_graph.binary(operation, m_values.number(values[0]), m_values.number(values[1])),
                                          place);
         }
+        if (word == "modulus" || word == "argument") {
+            // Of a complex number, real part first.
+            const std::vector<Value> parts = arguments(word, place, 2, 2);
+            const NodeId real = m_values.number(parts[0]), imaginary = m_values.number(parts[1]);
+            return m_values.number_value(word == "modulus" ? m_graph.length(real, imaginary, m_graph.constant(0))
+                                                           : m_graph.binary(Operation::arctangent2, imaginary, real),
+                                         place);
+        }
         if (word == "norm") {
             const Value value = arguments(word, place, 1, 1)[0];
             return m_values.number_value(value.rank == 0 ? m_graph.unary(Operation::absolute, value.entries[0])

@@ -186,11 +186,15 @@ std::vector<Camera> camera_path(const SceneAnimation& animation, const Camera& c
 std::vector<AnimationFrame> animation_frames(const SceneAnimation& animation, const std::vector<std::uint32_t>& steps,
                                              std::uint32_t time_step, const Camera& camera) {
     const std::vector<Camera> path = camera_path(animation, camera);
-    const std::size_t n_frames = std::max(path.size(), steps.size());
+    const std::size_t n_frames = std::max({path.size(), steps.size(), std::size_t{animation.n_phases}});
     std::vector<AnimationFrame> frames;
     for (std::size_t frame = 0; frame < n_frames; ++frame) {
         frames.push_back(
             {steps.empty() ? time_step : steps[frame * steps.size() / n_frames], path[frame * path.size() / n_frames]});
+        if (animation.n_phases > 0) {
+            const std::size_t phase = frame * animation.n_phases / n_frames;
+            frames.back().phase = 360.0 * static_cast<double>(phase) / animation.n_phases;
+        }
     }
     return frames;
 }

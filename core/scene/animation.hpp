@@ -1,6 +1,6 @@
 /**
  * @file animation.hpp
- * Pictures one after the other: over time steps, along a path of the camera, or both.
+ * Pictures one after the other: over time steps or phases, along a path of the camera, or both.
  */
 #pragma once
 
@@ -39,6 +39,8 @@ struct KeyFrame {
 
 struct SceneAnimation {
     std::optional<TimeStepRange> time_steps;
+    /** Phases of the scene's warp, evenly over one period; 0: the scene's own. Not with time steps. */
+    std::uint32_t n_phases = 0;
     /** At most one of these two. */
     std::optional<Turntable> turntable;
     /** At least two with their pictures ascending, the first being 0; or none. */
@@ -50,6 +52,8 @@ struct SceneAnimation {
 struct AnimationFrame {
     std::uint32_t time_step = 0;
     Camera camera;
+    /** Degrees, where the animation has phases. */
+    std::optional<double> phase = std::nullopt;
 };
 
 /** "all", "A:B" or "A:B:S" with whole numbers; nothing where the text is something else. */
@@ -67,7 +71,8 @@ std::vector<std::uint32_t> steps_of(const TimeStepRange& range, std::size_t n_st
 std::vector<Camera> camera_path(const SceneAnimation& animation, const Camera& camera);
 
 /**
- * All pictures: as many as the camera's path or the steps have, whichever is more; the other one is spread evenly over them.
+ * All pictures: as many as the camera's path, the steps or the phases have, whichever is more; the others are spread evenly
+ * over them.
  * Without steps all show `time_step`.
  */
 std::vector<AnimationFrame> animation_frames(const SceneAnimation& animation, const std::vector<std::uint32_t>& steps,

@@ -60,6 +60,24 @@ void read_volume(const JsonObject& volume, const std::string& path, Scene& scene
     }
 }
 
+SceneWarp read_warp(const JsonObject& object) {
+    SceneWarp warp;
+    if (!object.has("field")) {
+        object.fail("field", "is missing: it names the displacement");
+    }
+    warp.field = object.text("field");
+    if (object.has("imaginary")) {
+        warp.imaginary = object.text("imaginary");
+    }
+    if (object.has("factor")) {
+        warp.factor = object.number("factor");
+    }
+    if (object.has("phase")) {
+        warp.phase = object.number("phase");
+    }
+    return warp;
+}
+
 void read_image(const JsonObject& image, const std::string& path, Scene& scene) {
     if (image.has("size")) {
         const std::vector<double> size = image.numbers("size");
@@ -105,6 +123,9 @@ Scene scene_of(const nlohmann::json& document, const std::string& path) {
     Scene scene;
     if (root.has("volume")) {
         read_volume(root.object("volume"), path, scene);
+    }
+    if (root.has("warp")) {
+        scene.warp = read_warp(root.object("warp"));
     }
     if (root.has("field")) {
         scene.field = root.text("field");
@@ -153,6 +174,9 @@ Scene scene_of(const nlohmann::json& document, const std::string& path) {
     }
     if (root.has("animation")) {
         scene.animation = read_animation(root.object("animation"));
+        if (scene.animation->n_phases > 0 && !scene.warp) {
+            root.object("animation").fail("phases", "are those of the warp, which the scene does not have");
+        }
     }
     return scene;
 }

@@ -132,6 +132,17 @@ struct SceneVolumeRendering {
 const std::vector<std::pair<std::string, Integrator>>& integrator_names();
 std::optional<Integrator> integrator_named(const std::string& name);
 
+/** The geometry is displaced by factor * Re((field + i imaginary) e^(i phase)). */
+struct SceneWarp {
+    std::string field;
+    std::optional<std::string> imaginary;
+    double factor = 1;
+    /** Degrees. */
+    double phase = 0;
+
+    friend bool operator==(const SceneWarp&, const SceneWarp&) = default;
+};
+
 struct Scene {
     std::string volume;
     /** Further files of the same foreign data set. */
@@ -140,6 +151,7 @@ struct Scene {
     /** JSON text, or empty. */
     std::string plugin_options;
     std::uint32_t time_step = 0;
+    std::optional<SceneWarp> warp;
     std::optional<std::string> field;
     std::optional<Precision> precision;
     SceneCamera camera;

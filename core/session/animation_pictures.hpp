@@ -12,6 +12,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -22,27 +23,35 @@ std::vector<std::uint32_t> steps_of_animation(const Scene& scene, const RuntimeV
 /** One thread at a time. */
 class AnimationPictures {
 public:
-    /** Of a scene with an animation; the volume must outlive it. Throws Error where the scene does not suit the volume. */
+    /** Of a scene with an animation. Throws Error where the scene does not suit the volume. */
     AnimationPictures(Scene scene, const RuntimeVolume& volume, VolumeRanges& ranges);
 
     const std::vector<AnimationFrame>& frames() const { return m_frames; }
     double frames_a_second() const { return m_scene.animation->frames_a_second; }
 
-    /** What is to be known of a time step comes with the first picture of it. */
-    StillPicture draw(std::size_t frame, Renderer& renderer, const StillOptions& options, const TaskControl* control = nullptr);
+    /** What a picture shows, but for its camera: the scene at that time step and phase. */
+    Scene scene_of(std::size_t frame) const;
+
+    /**
+     * What is to be known of a time step comes with the first picture of it. `volume`, which `renderer` draws, is displaced as
+     * scene_of(frame) says.
+     */
+    StillPicture draw(std::size_t frame, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options, const TaskControl* control = nullptr);
 
     /** What all pictures that were drawn so far do not show, a sentence each. */
     std::vector<std::string> missed(VolumeRanges& ranges) const;
 
 private:
-    const FrameRequest& request_of(std::uint32_t time_step, VolumeRanges& ranges);
+    /** A time step and a phase. */
+    using Moment = std::pair<std::uint32_t, double>;
+
+    static Moment moment_of(const AnimationFrame& frame) { return {frame.time_step, frame.phase.value_or(0)}; }
+    const FrameRequest& request_of(const Scene& scene, Moment moment, const RuntimeVolume& volume, VolumeRanges& ranges);
 
     Scene m_scene;
-    const RuntimeVolume& m_volume;
-    /** By time step. */
-    std::map<std::uint32_t, FrameRequest> m_requests;
-    /** Time steps of which there was a picture. */
-    std::set<std::uint32_t> m_drawn_steps;
+    std::map<Moment, FrameRequest> m_requests;
+    /** Of which there was a picture. */
+    std::set<Moment> m_drawn;
     std::vector<AnimationFrame> m_frames;
     MissedSurfaces m_missed;
 };

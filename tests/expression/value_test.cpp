@@ -51,6 +51,8 @@ constexpr const char* expressions[] = {
     "atan(p)",
     "atan2(p, u[0])",
     "atan2(-p, -u[0])",
+    "modulus(p, u[0])",
+    "argument(p, u[0])",
     "exp(-p)",
     "log(p) + log10(p)",
     "pow(p, u[1])",

@@ -1,6 +1,7 @@
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/open_volume.hpp>
+#include <apps/elvis/warp_option.hpp>
 
 #include <core/base/error.hpp>
 
@@ -20,6 +21,7 @@ namespace {
 struct Arguments {
     std::vector<std::string> files;
     std::string plugin;
+    WarpArguments warp;
     std::string field;
     std::string device;
     std::uint32_t time_step = 0;
@@ -43,7 +45,8 @@ nlohmann::ordered_json extremum(double value, double bound, bool is_certified, s
 void run(const Arguments& arguments) {
     const context library = library_context(arguments.device);
     const data volume =
-        open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); });
+        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
+               arguments.warp, arguments.time_step);
     if (volume.info().n_fields == 0 && arguments.field.empty()) {
         throw Error(arguments.files.front(), "has no fields");
     }
@@ -74,6 +77,7 @@ void add_extrema(CLI::App& app) {
     command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
     command->add_option("--field", arguments->field,
                         "Field, component or expression; of a vector its magnitude; default: the first field");
+    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command->add_option("--device", arguments->device, "Device that samples expressions: name or index");
     command->callback([arguments] { run(*arguments); });

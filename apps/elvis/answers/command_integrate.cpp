@@ -2,6 +2,7 @@
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
+#include <apps/elvis/warp_option.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -20,6 +21,7 @@ namespace {
 struct Arguments {
     std::vector<std::string> files;
     std::string plugin;
+    WarpArguments warp;
     std::string field;
     bool is_boundary = false;
     std::vector<std::string> groups;
@@ -101,7 +103,8 @@ void run(const Arguments& arguments) {
     }
     const context library = library_context();
     const data volume =
-        open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); });
+        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
+               arguments.warp, arguments.time_step);
     const elvis_integral integral = integral_of(volume, arguments);
     const nlohmann::ordered_json answer = {{"value", integral.value},
                                            {"error", integral.error},
@@ -138,6 +141,7 @@ void add_integrate(CLI::App& app) {
         "--flux", arguments->is_flux,
         "The field is a vector, of which the component along the normal is integrated: out of the volume, along (a,b,c), or "
         "to where the isosurface's field is larger");
+    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command
         ->add_option("--tolerance", arguments->tolerance,

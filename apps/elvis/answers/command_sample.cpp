@@ -6,6 +6,7 @@
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
+#include <apps/elvis/warp_option.hpp>
 #include <apps/elvis/render/output_endings.hpp>
 
 #include <core/base/counted.hpp>
@@ -22,6 +23,7 @@ namespace {
 struct Arguments {
     std::vector<std::string> files;
     std::string plugin;
+    WarpArguments warp;
     std::vector<std::string> line;
     std::string polyline, points, grid, box, plane, size, output, device;
     std::size_t count = 1000;
@@ -120,7 +122,8 @@ void run(const Arguments& arguments) {
     need_fitting_ending(arguments);
     const context library = library_context(arguments.device);
     const data volume =
-        open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); });
+        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
+               arguments.warp, arguments.wishes.time_step);
     TaskControl control;
     SampleTable table;
     {
@@ -165,6 +168,7 @@ void add_sample(CLI::App& app) {
     command->add_option("--field", arguments->wishes.fields, "Field or expression (repeatable); default: all fields")
         ->allow_extra_args(false);
     command->add_flag("--gradients", arguments->wishes.with_gradients, "World gradients, too");
+    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->wishes.time_step, "Time step, counted from 0");
     command->add_option("--device", arguments->device, "Device for plugins that do not evaluate on the CPU: name or index");
     command

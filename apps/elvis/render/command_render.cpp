@@ -133,6 +133,8 @@ void add_picture(CLI::App& command, RenderArguments& a) {
 void add_animation(CLI::App& command, RenderArguments& a) {
     command.add_option("--time-step", a.time_step, "Which time step")->check(CLI::NonNegativeNumber);
     command.add_option("--time-steps", a.time_steps, "all, FIRST:LAST or FIRST:LAST:STRIDE: a picture of each of these steps");
+    command.add_option("--phases", a.phases, "That many pictures over one period of the warp's phase")
+        ->check(CLI::Range(1, 1000000));
     command.add_option("--turntable", a.turntable, "That many pictures with the eye once around the point looked at")
         ->check(CLI::Range(1, 1000000));
     command.add_option("--turntable-axis", a.turntable_axis, "x,y,z that the eye goes around; by default the camera's up");
@@ -161,6 +163,7 @@ void add_render(CLI::App& app) {
     auto a = std::make_shared<RenderArguments>();
     add_surfaces(*command, *a);
     add_volume(*command, *a);
+    add_warp(*command, a->warp);
     add_lines_and_colors(*command, *a);
     add_camera(*command, *a);
     add_picture(*command, *a);

@@ -125,7 +125,7 @@ void refuse_animation_options(const RenderArguments& arguments) {
          {std::pair{"--film", !arguments.film.empty()}, std::pair{"--frames-a-second", arguments.frames_a_second > 0},
           std::pair{"--turntable-axis", !arguments.turntable_axis.empty()}, std::pair{"--resume", arguments.resume}}) {
         if (is_given) {
-            throw UsageError(option, "means nothing without --time-steps, --turntable, or a scene with animation");
+            throw UsageError(option, "means nothing without --time-steps, --phases, --turntable, or a scene with animation");
         }
     }
 }
@@ -135,7 +135,7 @@ void refuse_animation_options(const RenderArguments& arguments) {
  */
 void apply_animation(const RenderArguments& arguments, Document& scene) {
     const bool has_animation = scene.has("/animation");
-    if (arguments.time_steps.empty() && arguments.turntable == 0 && !has_animation) {
+    if (arguments.time_steps.empty() && arguments.turntable == 0 && arguments.phases == 0 && !has_animation) {
         return refuse_animation_options(arguments);
     }
     json animation = has_animation ? scene.at("/animation") : json::object();
@@ -146,6 +146,9 @@ void apply_animation(const RenderArguments& arguments, Document& scene) {
             throw UsageError("--time-steps", "'" + arguments.time_steps + "' is neither all, FIRST:LAST nor FIRST:LAST:STRIDE");
         }
         animation["time_steps"] = arguments.time_steps;
+    }
+    if (arguments.phases > 0) {
+        animation["phases"] = arguments.phases;
     }
     if (arguments.turntable > 0) {
         animation["turntable"] = {{"frames", arguments.turntable}};
@@ -266,6 +269,17 @@ std::array<unsigned, 2> size_of(const std::string& text) {
     return {width, height};
 }
 
+void apply_warp(const WarpArguments& warp, Document& scene) {
+    if (warp.field.empty()) {
+        return;
+    }
+    json said = {{"field", warp.field}, {"factor", warp.factor}, {"phase", warp.phase}};
+    if (!warp.imaginary.empty()) {
+        said["imaginary"] = warp.imaginary;
+    }
+    scene.set("/warp", said);
+}
+
 void apply_image(const RenderArguments& arguments, Document& scene) {
     if (arguments.samples > 0) {
         scene.set("/image/samples", arguments.samples);
@@ -299,6 +313,7 @@ void apply_options(const RenderArguments& arguments, scene& shown) {
     if (!arguments.field.empty()) {
         document.set("/field", arguments.field);
     }
+    apply_warp(arguments.warp, document);
     apply_surfaces(arguments, document);
     apply_lines(arguments, document);
     apply_volume(arguments, document);

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <apps/elvis/warp_option.hpp>
+
 #include <elvis/elvis.hpp>
 
 #include <array>
@@ -23,7 +25,9 @@ struct RenderArguments {
     /** What is drawn is a scene file, not a volume. */
     bool is_scene = false;
     std::string output;
+    WarpArguments warp;
     std::string time_steps;
+    int phases = 0;
     int turntable = 0;
     std::string turntable_axis;
     std::string film;

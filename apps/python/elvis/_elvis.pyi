@@ -31,6 +31,9 @@ class Volume:
         self, domain: int, field: str | None, groups: list[str], plane: list[float], level_field: str | None, isovalue: float,
         flux: bool, time_step: int, tolerance: float, progress: Progress
     ) -> dict[str, Any]: ...
+    def warp(
+        self, field: str, factor: float, imaginary: str | None, phase: float, time_step: int, progress: Progress
+    ) -> Volume: ...
     def walk_line(self, start: list[float], end: list[float], fields: list[str], time_step: int, progress: Progress) -> str: ...
     def probe(
         self, points: NDArray[np.float64], fields: list[str], time_step: int, progress: Progress

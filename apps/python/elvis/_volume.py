@@ -129,6 +129,17 @@ class Volume:
             return Integral(**self._handle.integrate(domain, field, groups, [0.0] * 4 if plane is None else list(plane), level_field,
                                                      0.0 if isosurface is None else isosurface, flux, time_step, tolerance, report))
 
+    def warp(self, field: str, factor: float = 1.0, *, imaginary: str | None = None, phase: float = 0.0, time_step: int = 0,
+             progress: Progress = True) -> "Volume":
+        """The volume displaced by factor times a field, exactly; fields go along with the points.
+
+        field: a vector; in two dimensions also a number, which is a height. imaginary: of a complex displacement the imaginary part;
+        what is shown is the real part of (field + i imaginary) e^(i phase). phase: degrees. Derivatives in expressions are those in
+        the displaced coordinates.
+        """
+        with progress_for(progress) as report:
+            return Volume(self._handle.warp(field, factor, imaginary, phase, time_step, report), self.path, {})
+
     def walk_line(self, start: Sequence[float], end: Sequence[float], fields: str | Sequence[str] | None = None, *, time_step: int = 0,
                   progress: Progress = True) -> list[Break]:
         """Where the straight line from start to end enters and leaves elements, in order, with the fields as seen from either side.

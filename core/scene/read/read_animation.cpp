@@ -60,6 +60,12 @@ SceneAnimation read_animation(const JsonObject& object) {
     if (object.has("time_steps")) {
         animation.time_steps = read_time_steps(object);
     }
+    if (object.has("phases")) {
+        if (animation.time_steps) {
+            object.fail("phases", "and 'time_steps' are two times of one field");
+        }
+        animation.n_phases = object.integer("phases");
+    }
     if (object.has("turntable")) {
         animation.turntable = read_turntable(object.object("turntable"));
     }

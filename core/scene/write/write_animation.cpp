@@ -38,6 +38,9 @@ SceneJson animation_json(const SceneAnimation& animation) {
     if (animation.time_steps) {
         json["time_steps"] = text_of(*animation.time_steps);
     }
+    if (animation.n_phases > 0) {
+        json["phases"] = animation.n_phases;
+    }
     if (animation.turntable) {
         json["turntable"] = turntable_json(*animation.turntable);
     }

@@ -45,6 +45,17 @@ SceneJson volume_json(const Scene& scene, const std::string& path) {
     return json;
 }
 
+SceneJson warp_json(const SceneWarp& warp) {
+    SceneJson json;
+    json["field"] = warp.field;
+    set(json, "imaginary", warp.imaginary);
+    json["factor"] = warp.factor;
+    if (warp.phase != 0) {
+        json["phase"] = warp.phase;
+    }
+    return json;
+}
+
 SceneJson image_json(const Scene& scene, const std::string& path) {
     SceneJson json;
     json["size"] = scene.size;
@@ -78,6 +89,9 @@ SceneJson scene_json(const Scene& scene, const std::string& path) {
     json["version"] = 1;
     if (!scene.volume.empty()) {
         json["volume"] = volume_json(scene, path);
+    }
+    if (scene.warp) {
+        json["warp"] = warp_json(*scene.warp);
     }
     set(json, "field", scene.field);
     if (scene.precision) {

@@ -206,6 +206,28 @@ ELVIS_EXPORT elvis_result elvis_data_update_field(elvis_data* data, uint32_t fie
  */
 ELVIS_EXPORT elvis_result elvis_data_fields_changed(elvis_data* data, uint32_t field);
 
+/** How a geometry is displaced: each point x moves to x + factor * Re((u(x) + i v(x)) e^(i phase)). */
+typedef struct elvis_warp {
+    uint32_t struct_size;
+    /** Of the displacement. */
+    uint32_t time_step;
+    /** u: a field with as many components as dimensions; in two dimensions also with three, or with one, which is a height. */
+    elvis_string field;
+    /** v, of a complex displacement; or NULL: 0. */
+    elvis_string imaginary;
+    double factor;
+    /** Degrees. */
+    double phase;
+} elvis_warp;
+
+/**
+ * Displaced data, as new data that do not change with these. The mapping of each element is the sum of two polynomials, and
+ * exact; fields go along with the points, and derivatives are those in the displaced coordinates. Only of native volumes, of
+ * what is converted to them, and of arrays; without fields that are mapped by the geometry (H(curl), H(div)).
+ */
+ELVIS_EXPORT elvis_result elvis_data_warp(elvis_data* data, const elvis_warp* warp, const elvis_task* task,
+                                          elvis_data** warped);
+
 ELVIS_EXPORT void elvis_data_release(elvis_data* data);
 
 typedef struct elvis_data_info {

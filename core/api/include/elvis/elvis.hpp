@@ -290,6 +290,13 @@ public:
         options.flags = ELVIS_DESCRIBE_BRIEF;
         return describe(options);
     }
+    /** Displaced: see elvis_data_warp. */
+    data warp(const elvis_warp& how, const task& watch = {}) const {
+        elvis_data* displaced = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_warp(get(), &how, &c_watch, &displaced));
+        return {m_context, displaced};
+    }
     elvis_range range(const std::string& field, std::uint32_t time_step = 0) const {
         auto result = detail::sized<elvis_range>();
         check(elvis_data_get_range(get(), field.c_str(), time_step, &result));

@@ -36,6 +36,13 @@ ArrayVolume::ArrayVolume(Description description, std::vector<Face> faces)
     }
 }
 
+std::shared_ptr<ArrayVolume> ArrayVolume::copy() const {
+    auto other = std::make_shared<ArrayVolume>(m_description, m_faces);
+    other->m_geometry = m_geometry;
+    other->m_fields = m_fields;
+    return other;
+}
+
 void ArrayVolume::read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
                                 std::span<double> coefficients) const {
     copy_elements(m_geometry[element_class], 3 * n_modes(m_description.classes[element_class].geometry), first, count,

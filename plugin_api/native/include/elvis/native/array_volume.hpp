@@ -7,6 +7,7 @@
 #include <elvis/native/volume_source.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,8 @@ class ArrayVolume : public VolumeSource {
 public:
     /** `faces`: as many as the description says. Throws std::invalid_argument for spaces that do not exist. */
     ArrayVolume(Description description, std::vector<Face> faces);
+
+    std::shared_ptr<ArrayVolume> copy() const;
 
     const Description& description() const override { return m_description; }
 

@@ -1,0 +1,62 @@
+#include <core/session/warped.hpp>
+
+#include <core/base/error.hpp>
+#include <core/base/nearest_word.hpp>
+#include <core/plugin_host/plugin.hpp>
+
+#include <elvis/native/serve.hpp>
+#include <elvis/native/volume_file.hpp>
+#include <elvis/native/warped_volume.hpp>
+#include <elvis/plugin.hpp>
+
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+namespace {
+
+std::size_t field_named(const native::Description& description, const std::string& wanted, const std::string& volume) {
+    std::vector<std::string> names;
+    for (const native::Field& field : description.fields) {
+        if (field.name == wanted) {
+            return names.size();
+        }
+        names.push_back(field.name);
+    }
+    const std::string nearest = nearest_word(wanted, names);
+    throw Error(volume, "the warp's field '" + wanted + "' is not there" +
+                            (nearest.empty() ? std::string() : "; did you mean '" + nearest + "'?"));
+}
+
+} // namespace
+
+std::shared_ptr<const native::VolumeSource> native_source(const std::string& path) {
+    return std::make_shared<const native::Reader>(path);
+}
+
+RuntimeVolume open_warped(std::shared_ptr<const native::VolumeSource> source, const SceneWarp& warp, std::uint32_t time_step,
+                          const std::string& name, const TaskControl* control) {
+    const native::Description& description = source->description();
+    native::Warp own;
+    own.field = field_named(description, warp.field, name);
+    if (warp.imaginary) {
+        own.imaginary = field_named(description, *warp.imaginary, name);
+    }
+    own.time_step = time_step;
+    own.factor = warp.factor;
+    own.phase = warp.phase * std::numbers::pi / 180;
+    try {
+        auto warped = std::make_shared<const native::WarpedVolume>(std::move(source), own);
+        const auto serve = [&](const elvis_host* host) { return native::serve(host, name, std::move(warped)); };
+        return {Plugin::of_native(name), name, serve, control};
+    } catch (const std::invalid_argument& reason) {
+        throw Error(name, std::string("cannot be displaced: ") + reason.what());
+    } catch (const api::Error& failure) {
+        throw Error(name, std::string("cannot be displaced: ") + failure.what());
+    }
+}
+
+} // namespace elvis

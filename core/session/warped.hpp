@@ -1,0 +1,31 @@
+/**
+ * @file warped.hpp
+ * Native volumes whose geometry is displaced, as a scene's warp says.
+ */
+#pragma once
+
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/scene/scene.hpp>
+
+#include <elvis/native/volume_source.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace elvis {
+
+/** The plugin whose files are native volumes. */
+inline constexpr const char* native_plugin_id = "org.elvis.native";
+
+/** The numbers of a native volume's file. */
+std::shared_ptr<const native::VolumeSource> native_source(const std::string& path);
+
+/**
+ * Displaced by the fields of that time step (elvis/native/warped_volume.hpp). `name` stands for the volume in messages.
+ * `control`, if there is one, must outlive it. Throws Error for fields that are not there or that are no displacement.
+ */
+RuntimeVolume open_warped(std::shared_ptr<const native::VolumeSource> source, const SceneWarp& warp, std::uint32_t time_step,
+                          const std::string& name, const TaskControl* control);
+
+} // namespace elvis
