@@ -173,6 +173,33 @@ std::vector<double> wedge_nodes(std::uint32_t order) {
     return nodes.take();
 }
 
+std::vector<double> triangle_nodes(std::uint32_t order) {
+    const Vector3 a{-1, -1, 0}, b{1, -1, 0}, c{-1, 1, 0};
+    NodeList nodes(order);
+    nodes.add(a);
+    nodes.add(b);
+    nodes.add(c);
+    nodes.add_edge(a, b);
+    nodes.add_edge(b, c);
+    nodes.add_edge(c, a);
+    nodes.add_nested_triangle(a, b, c, order);
+    return nodes.take();
+}
+
+std::vector<double> quadrilateral_nodes(std::uint32_t order) {
+    const Vector3 a{-1, -1, 0}, b{1, -1, 0}, c{1, 1, 0}, d{-1, 1, 0};
+    NodeList nodes(order);
+    for (const Vector3& corner : {a, b, c, d}) {
+        nodes.add(corner);
+    }
+    nodes.add_edge(a, b);
+    nodes.add_edge(b, c);
+    nodes.add_edge(d, c);
+    nodes.add_edge(a, d);
+    nodes.add_quadrilateral(a, b, d);
+    return nodes.take();
+}
+
 } // namespace
 
 std::uint8_t vtk_cell_type(elvis_shape shape) {
@@ -183,6 +210,10 @@ std::uint8_t vtk_cell_type(elvis_shape shape) {
         return 72;
     case ELVIS_SHAPE_PRISM:
         return 73;
+    case ELVIS_SHAPE_TRIANGLE:
+        return 69;
+    case ELVIS_SHAPE_QUADRILATERAL:
+        return 70;
     default:
         return 14;
     }
@@ -199,6 +230,10 @@ std::vector<double> lagrange_nodes(elvis_shape shape, std::uint32_t order) {
         return hexahedron_nodes(order);
     case ELVIS_SHAPE_PRISM:
         return wedge_nodes(order);
+    case ELVIS_SHAPE_TRIANGLE:
+        return triangle_nodes(order);
+    case ELVIS_SHAPE_QUADRILATERAL:
+        return quadrilateral_nodes(order);
     default:
         assert(shape == ELVIS_SHAPE_PYRAMID && order == 1);
         return {-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1};

@@ -17,7 +17,7 @@ namespace elvis {
 std::uint8_t vtk_cell_type(elvis_shape shape);
 
 /**
- * Three coordinates a node, in VTK's order. The shape has three dimensions; pyramids are of order 1, because VTK has no others.
+ * Three coordinates a node, in VTK's order. Pyramids are of order 1, because VTK has no others.
  * Wedges run such that VTK finds their Jacobian positive where the native one is.
  */
 std::vector<double> lagrange_nodes(elvis_shape shape, std::uint32_t order);

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <numeric>
+#include <span>
 
 namespace elvis {
 
@@ -80,9 +81,6 @@ private:
 
 void Exporter::check() const {
     const std::string& path = m_volume.path();
-    if (m_volume.dimension() != 3) {
-        throw Error(path, "is two-dimensional; only three-dimensional volumes can be exported");
-    }
     if (!m_volume.has_evaluation()) {
         throw Error(path, "is served by plugin " + m_volume.plugin().id() +
                               ", which does not evaluate on the CPU; only volumes "
@@ -106,8 +104,8 @@ std::int32_t Exporter::field_order(std::uint32_t element_class, std::uint32_t fi
         return -1;
     }
     const ClassFieldInfo info = m_volume.class_field(element_class, field);
-    const auto [least, most] = std::minmax({info.order[0], info.order[1], info.order[2]});
-    return least < 0 ? -1 : most;
+    const auto orders = std::span(info.order).first(m_volume.dimension());
+    return std::ranges::min(orders) < 0 ? -1 : std::ranges::max(orders);
 }
 
 bool Exporter::is_constant(std::uint32_t field) const {

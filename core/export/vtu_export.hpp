@@ -31,7 +31,7 @@ struct ExportReport {
 
 /**
  * Writes `output`, which appears only when everything is done. An Error tells what cannot be exported: volumes whose plugin
- * does not evaluate on the CPU, two-dimensional volumes, curved or high-order pyramids (VTK has no Lagrange pyramid), and
+ * does not evaluate on the CPU, curved or high-order pyramids (VTK has no Lagrange pyramid), and
  * without ExportOptions::order fields that are not polynomial. Elements are in the order of their numbers. Memory does not grow
  * with the fields: it is about 16 bytes an element.
  */

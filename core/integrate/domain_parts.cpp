@@ -112,9 +112,6 @@ std::vector<DomainPart> domain_parts(const RuntimeVolume& volume, const Integral
 }
 
 LevelSet level_set(const RuntimeVolume& volume, const IntegralRequest& request) {
-    if (volume.dimension() != 3) {
-        throw Error(volume.path(), "has two dimensions: planes and isosurfaces are integrated over in three");
-    }
     const bool is_plane = request.domain == IntegralRequest::Domain::plane;
     const std::string text = is_plane ? plane_text(request.plane) : request.level_field;
     LevelSet level{std::make_shared<const Expression>(text, volume.fields(), volume.dimension()),

@@ -65,6 +65,7 @@ std::vector<ElementBlock> element_blocks(elvis_shape shape) {
     for (int corner = 0; corner < native::n_corners(native::Shape{shape}); ++corner) {
         c.push_back(native::corner(native::Shape{shape}, corner));
     }
+    constexpr Vector3 up{0, 0, 1};
     std::vector<ElementBlock> blocks;
     switch (shape) {
     case ELVIS_SHAPE_HEXAHEDRON:
@@ -79,6 +80,14 @@ std::vector<ElementBlock> element_blocks(elvis_shape shape) {
     case ELVIS_SHAPE_PYRAMID:
         append_tetrahedron(c[0], c[1], c[2], c[4], blocks);
         append_tetrahedron(c[0], c[2], c[3], c[4], blocks);
+        break;
+    case ELVIS_SHAPE_QUADRILATERAL:
+        blocks.push_back({{c[0], c[1], c[3], c[2], plus(c[0], up), plus(c[1], up), plus(c[3], up), plus(c[2], up)}});
+        break;
+    case ELVIS_SHAPE_TRIANGLE:
+        blocks.push_back(edge_block(c[0], c[1], c[2], up));
+        blocks.push_back(edge_block(c[1], c[2], c[0], up));
+        blocks.push_back(edge_block(c[2], c[0], c[1], up));
         break;
     default:
         assert(shape == ELVIS_SHAPE_TETRAHEDRON);

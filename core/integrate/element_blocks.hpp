@@ -27,8 +27,8 @@ struct ElementBlock {
 };
 
 /**
- * Hexahedra one block, prisms three, tetrahedra four, pyramids the eight of two tetrahedra. Blocks share whole faces.
- * Three-dimensional shapes only.
+ * Hexahedra one block, prisms three, tetrahedra four, pyramids the eight of two tetrahedra. Blocks share whole faces. Of
+ * quadrilaterals and triangles the plate between third coordinates 0 and 1.
  */
 std::vector<ElementBlock> element_blocks(elvis_shape shape);
 

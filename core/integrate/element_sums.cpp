@@ -70,7 +70,8 @@ Sums Integrand::sum(std::uint64_t element, elvis_shape shape, const ReferencePoi
             sums.is_inverted = sums.is_inverted || determinant < 0;
         } else {
             const Vector3 vector = triple(points.vectors, i);
-            area = is_flat ? tangents.conormal(vector, minus(middle_of(shape), triple(points.xi, i))) : tangents.area(vector);
+            area = points.has_edges ? tangents.conormal(vector, minus(middle_of(shape), triple(points.xi, i)))
+                                    : tangents.area(vector);
             measure = length(area);
             sums.is_inverted = sums.is_inverted || (!is_flat && tangents.determinant() < 0);
         }

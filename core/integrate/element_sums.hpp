@@ -29,7 +29,10 @@ public:
     };
     Integrand(const ElementSampler& sampler, Kind kind) : m_sampler(sampler), m_kind(kind) {}
 
-    /** Weights are those of an element, vectors those of a surface, or of edges if the volume has two dimensions. */
+    /**
+     * Weights are those of an element, vectors those of a surface or of edges. A surface in an element of two dimensions is
+     * one in the plate of thickness 1 around it: as large as the line is long in which it meets the element.
+     */
     Sums sum(std::uint64_t element, elvis_shape shape, const ReferencePoints& points) const;
 
 private:

@@ -19,6 +19,19 @@ namespace {
 
 using Expressions = std::vector<std::shared_ptr<const Expression>>;
 
+/** Vectors in the plane have none. */
+bool has_third_component(const RuntimeVolume& volume, const std::string& vector) {
+    if (volume.dimension() == 3) {
+        return true;
+    }
+    try {
+        const Expression third("(" + vector + ")[2]", volume.fields(), 2);
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 /** None for the number 1; the components of a vector if its flux is wanted. */
 Expressions integrand_of(const RuntimeVolume& volume, const IntegralRequest& request) {
     Expressions expressions;
@@ -26,9 +39,9 @@ Expressions integrand_of(const RuntimeVolume& volume, const IntegralRequest& req
         expressions.push_back(std::make_shared<const Expression>(text, volume.fields(), volume.dimension()));
     };
     if (request.is_flux) {
-        for (const char* component : {"[0]", "[1]", "[2]"}) {
-            add("(" + request.field + ")" + component);
-        }
+        add("(" + request.field + ")[0]");
+        add("(" + request.field + ")[1]");
+        add(has_third_component(volume, request.field) ? "(" + request.field + ")[2]" : "0");
     } else if (!request.field.empty()) {
         add(request.field);
     }

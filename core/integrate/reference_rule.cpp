@@ -109,6 +109,7 @@ void ReferencePoints::clear() {
     xi.clear();
     weights.clear();
     vectors.clear();
+    has_edges = false;
 }
 
 unsigned ElementPart::dimension() const {
@@ -124,6 +125,7 @@ void append_gauss_points(const ElementPart& part, const CollapsedBox& box, unsig
         append_face_points(shape, part.local_face, box, gauss_line(n), points);
     } else {
         append_edge_points(shape, part.local_face, box, gauss_line(n), points);
+        points.has_edges = true;
     }
 }
 

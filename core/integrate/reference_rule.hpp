@@ -37,6 +37,7 @@ struct ReferencePoints {
      * world. Of edges: the vector along the edge, which the Jacobian takes to the world.
      */
     std::vector<double> vectors;
+    bool has_edges = false;
 
     void clear();
     std::size_t size() const { return xi.size() / 3; }

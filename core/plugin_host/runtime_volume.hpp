@@ -180,7 +180,10 @@ public:
 
     /** Whether both CPU evaluations are there. */
     bool has_evaluation() const;
-    /** Shapes as in elvis_runtime.evaluate_mapping; an empty span means "not wanted". */
+    /**
+     * Shapes as in elvis_runtime.evaluate_mapping; an empty span means "not wanted". In two dimensions the Jacobian's third
+     * column is the unit normal, or zero where there is none, and gradients have no third part.
+     */
     void evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions,
                           std::span<double> jacobians) const;
     void evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, std::span<const double> xi,

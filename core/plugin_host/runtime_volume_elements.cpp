@@ -1,4 +1,5 @@
 // What is asked about elements: bounds, faces, ranges and derivatives of fields, values, signs of Jacobians.
+#include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume_impl.hpp>
 
 #include <elvis/native/space.hpp>
@@ -155,6 +156,20 @@ elvis_certainty RuntimeVolume::apex_bounds(std::uint32_t field, std::uint32_t ti
 
 bool RuntimeVolume::has_evaluation() const { return m_impl->table->evaluate_mapping && m_impl->table->evaluate_field; }
 
+namespace {
+
+/** The third column of a Jacobian in two dimensions, of which plugins say nothing. */
+void set_normal(std::span<double> jacobian) {
+    const Vector3 first{jacobian[0], jacobian[3], jacobian[6]}, second{jacobian[1], jacobian[4], jacobian[7]};
+    const Vector3 normal = cross(first, second);
+    const double size = length(normal);
+    for (std::size_t row = 0; row < 3; ++row) {
+        jacobian[3 * row + 2] = size > 0 ? normal[row] / size : 0;
+    }
+}
+
+} // namespace
+
 void RuntimeVolume::evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions,
                                      std::span<double> jacobians) const {
     const std::size_t n_points = xi.size() / 3;
@@ -162,6 +177,11 @@ void RuntimeVolume::evaluate_mapping(std::uint64_t element, std::span<const doub
     assert(jacobians.empty() || jacobians.size() == 9 * n_points);
     m_impl->call("evaluate_mapping", m_impl->table->evaluate_mapping, element, n_points, xi.data(),
                  positions.empty() ? nullptr : positions.data(), jacobians.empty() ? nullptr : jacobians.data());
+    if (dimension() == 2) {
+        for (std::size_t at = 0; at < jacobians.size(); at += 9) {
+            set_normal(jacobians.subspan(at, 9));
+        }
+    }
 }
 
 void RuntimeVolume::evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element,
@@ -171,6 +191,11 @@ void RuntimeVolume::evaluate_field(std::uint32_t field, std::uint32_t time_step,
     assert(gradients.empty() || gradients.size() == 3 * n_numbers);
     m_impl->call("evaluate_field", m_impl->table->evaluate_field, field, time_step, element, xi.size() / 3, xi.data(),
                  values.empty() ? nullptr : values.data(), gradients.empty() ? nullptr : gradients.data());
+    if (dimension() == 2) {
+        for (std::size_t at = 2; at < gradients.size(); at += 3) {
+            gradients[at] = 0;
+        }
+    }
 }
 
 bool RuntimeVolume::has_jacobian_checks() const { return m_impl->table->check_jacobians != nullptr; }

@@ -3,6 +3,7 @@
 #include <core/expression/volume_point.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/newton.hpp>
+#include <core/probe/plate.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -15,12 +16,6 @@ namespace {
 
 /** So many that handing them over costs little, and that those of one element are together. */
 constexpr std::uint64_t points_a_thread = 4096;
-
-MappingFunction mapping_in(const RuntimeVolume& volume, std::uint64_t element) {
-    return [&volume, element](std::span<const double> xi, std::span<double> positions, std::span<double> jacobians) {
-        volume.evaluate_mapping(element, xi, positions, jacobians);
-    };
-}
 
 /** Places in a list of things in elements, in the order of these. */
 template <class Thing> std::vector<std::size_t> by_element(std::span<const Thing> things) {
@@ -50,19 +45,12 @@ CpuEvaluator::CpuEvaluator(const RuntimeVolume& volume)
     assert(volume.has_evaluation());
 }
 
-elvis_shape CpuEvaluator::shape_of(std::uint64_t element) const {
-    const auto& classes = m_volume->classes();
-    const auto after = std::upper_bound(classes.begin(), classes.end(), element,
-                                        [](std::uint64_t e, const ClassInfo& c) { return e < c.first_element; });
-    return std::prev(after)->shape;
-}
-
 void CpuEvaluator::invert_in(std::uint64_t element, std::span<const InversionQuery> queries,
                              std::span<const std::size_t> places, std::span<Inversion> answers) {
     std::vector<Vector3> targets;
     for (const std::size_t place : places)
         targets.push_back(queries[place].position);
-    const std::vector<Inversion> found = invert_mapping(shape_of(element), mapping_in(*m_volume, element), targets);
+    const std::vector<Inversion> found = SolidElement(*m_volume, element).invert(targets);
     for (std::size_t i = 0; i < places.size(); ++i)
         answers[places[i]] = found[i];
 }

@@ -25,7 +25,6 @@ public:
                                            std::span<const ReferencePoint> points, bool with_gradients) override;
 
 private:
-    elvis_shape shape_of(std::uint64_t element) const;
     /** Of queries about one element, by their places in the list. */
     void invert_in(std::uint64_t element, std::span<const InversionQuery> queries, std::span<const std::size_t> places,
                    std::span<Inversion> answers);

@@ -3,6 +3,7 @@
 #include <core/base/error.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/newton.hpp>
+#include <core/probe/plate.hpp>
 #include <core/probe/reference_shape.hpp>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ public:
     std::vector<LineBreak> breaks();
 
 private:
-    /** A point of the line in an element. */
+    /** A point of the line in an element, whose coordinates are those of the solid (plate.hpp). */
     struct Place {
         double t = 0;
         std::uint64_t element = 0;
@@ -51,7 +52,6 @@ private:
         double speed = 0;
     };
     Vector3 point(double t) const { return plus(m_from, scaled(m_direction, t)); }
-    elvis_shape shape_of(std::uint64_t element) const;
     std::vector<BoxSpan> spans() const;
     std::optional<Place> in_element(std::uint64_t element, double t) const;
     /** By Newton's method from a point nearby; beyond the shape, too. */
@@ -66,14 +66,6 @@ private:
     const TaskControl* m_control;
     std::vector<BoxSpan> m_spans;
 };
-
-elvis_shape Walk::shape_of(std::uint64_t element) const {
-    std::size_t index = 0;
-    while (element - m_volume.classes()[index].first_element >= m_volume.classes()[index].n_elements) {
-        ++index;
-    }
-    return m_volume.classes()[index].shape;
-}
 
 /** In the order in which the line comes to the boxes. */
 std::vector<BoxSpan> Walk::spans() const {
@@ -104,22 +96,23 @@ std::vector<BoxSpan> Walk::spans() const {
 }
 
 std::optional<Walk::Place> Walk::in_element(std::uint64_t element, double t) const {
-    const MappingFunction mapping = [&](std::span<const double> xi, std::span<double> positions, std::span<double> jacobians) {
-        m_volume.evaluate_mapping(element, xi, positions, jacobians);
-    };
-    const Inversion found = invert_mapping(shape_of(element), mapping, point(t));
-    return found.outcome == Inversion::Outcome::inside ? near({t, element, found.xi, 0}, t) : std::nullopt;
+    const SolidElement solid(m_volume, element);
+    const Vector3 target = point(t);
+    const Inversion found = solid.invert(std::span(&target, 1)).front();
+    return found.outcome == Inversion::Outcome::inside ? near({t, element, solid.solid(found.xi), 0}, t) : std::nullopt;
 }
 
 std::optional<Walk::Place> Walk::near(const Place& place, double t) const {
     constexpr int most_steps = 20;
     // What rounding of positions leaves.
     constexpr double settled = 1e-13;
+    const SolidElement solid(m_volume, place.element);
+    const MappingFunction mapping = solid.mapping();
     Place next{t, place.element, place.xi, place.speed};
     for (int step = 0; step < most_steps; ++step) {
         Vector3 position{};
         std::array<double, 9> jacobian{};
-        m_volume.evaluate_mapping(next.element, next.xi, position, jacobian);
+        mapping(next.xi, position, jacobian);
         const std::array<double, 9> inverse = invert_matrix(jacobian);
         const Vector3 change = product(inverse, minus(point(t), position));
         next.xi = plus(next.xi, change);
@@ -191,7 +184,7 @@ std::optional<Walk::Place> Walk::next_entry(double t) const {
 }
 
 Walk::Place Walk::edge_between(Place inside, Place beyond) const {
-    const elvis_shape shape = shape_of(inside.element);
+    const elvis_shape shape = SolidElement(m_volume, inside.element).shape();
     for (int step = 0; step < 60; ++step) {
         const double middle = 0.5 * (inside.t + beyond.t);
         if (!(middle > inside.t && middle < beyond.t)) {
@@ -208,7 +201,7 @@ Walk::Place Walk::edge_between(Place inside, Place beyond) const {
 
 /** The last point of the line in the element that it is in. */
 Walk::Place Walk::exit_of(Place place) const {
-    const elvis_shape shape = shape_of(place.element);
+    const elvis_shape shape = SolidElement(m_volume, place.element).shape();
     double step = step_in_element / place.speed;
     while (place.t < 1) {
         const double t = std::min(1.0, place.t + step);
@@ -231,7 +224,9 @@ Walk::Place Walk::exit_of(Place place) const {
 
 std::vector<LineBreak> Walk::breaks() {
     std::vector<LineBreak> found;
-    const auto reference = [](const Place& place) { return ReferencePoint{place.element, place.xi}; };
+    const auto reference = [this](const Place& place) {
+        return ReferencePoint{place.element, SolidElement(m_volume, place.element).own(place.xi)};
+    };
     std::optional<Place> place = holder(0, 1e-9);
     double t = 0;
     if (place) {
@@ -264,16 +259,23 @@ std::vector<LineBreak> Walk::breaks() {
     return found;
 }
 
+/** Whether the volume lies in a plane of constant z, and both points in it. */
+bool is_in_plane(const RuntimeVolume& volume, const Vector3& from, const Vector3& to) {
+    const std::optional<double> height = flat_height(volume);
+    const double most = on_surface * length(minus(to, from));
+    return height && std::abs(from[2] - *height) <= most && std::abs(to[2] - *height) <= most;
+}
+
 } // namespace
 
 std::vector<LineBreak> walk_line(const RuntimeVolume& volume, const Vector3& from, const Vector3& to,
                                  const TaskControl* control) {
-    if (volume.dimension() != 3) {
-        throw Error(volume.path(), "has two dimensions: lines are followed in three");
-    }
     if (!volume.has_evaluation() || volume.is_cut()) {
         throw Error(volume.path(), "the plugin " + volume.plugin().id() +
                                        " does not evaluate whole elements on the CPU, along which lines are followed");
+    }
+    if (volume.dimension() == 2 && !is_in_plane(volume, from, to)) {
+        throw Error(volume.path(), "has two dimensions: lines are followed in its plane, if it lies in one of constant z");
     }
     return Walk(volume, from, to, control).breaks();
 }

@@ -28,7 +28,7 @@ struct LineBreak {
 
 /**
  * In order, from the first point to the second. An element is told if the line is in it for more than a millionth of its size.
- * The plugin has to evaluate on the CPU, the volume has three dimensions.
+ * The plugin has to evaluate on the CPU. In two dimensions the volume and the line lie in one plane of constant z.
  */
 std::vector<LineBreak> walk_line(const RuntimeVolume& volume, const Vector3& from, const Vector3& to,
                                  const TaskControl* control = nullptr);

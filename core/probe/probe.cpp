@@ -3,6 +3,7 @@
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/device_evaluator.hpp>
+#include <core/probe/plate.hpp>
 #include <core/probe/probe.hpp>
 
 #include <algorithm>
@@ -16,8 +17,12 @@ std::unique_ptr<PointEvaluator> make_evaluator(const RuntimeVolume& volume, cons
     const bool is_cut = volume.is_cut();
     const bool on_cpu = options.evaluation == ProbeOptions::Evaluation::cpu ||
                         (options.evaluation == ProbeOptions::Evaluation::automatic && volume.has_evaluation() && !is_cut);
-    if (!on_cpu)
+    if (!on_cpu) {
+        if (volume.dimension() != 3)
+            throw Error(volume.path(), "has two dimensions, in which points are found on the CPU alone; the plugin " +
+                                           volume.plugin().id() + " does not evaluate there");
         return std::make_unique<DeviceEvaluator>(volume, options.device);
+    }
     if (is_cut)
         throw Error(volume.path(),
                     "has elements that are only parts of their reference shape, which their snippet tells (elvis_inside); "
@@ -37,8 +42,6 @@ struct Owner {
 } // namespace
 
 Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_volume(&volume) {
-    if (volume.dimension() != 3)
-        throw Error(volume.path(), "only three-dimensional volumes can be probed");
     m_evaluator = make_evaluator(volume, options);
 
     m_numbers.resize(volume.n_elements());
@@ -57,6 +60,8 @@ Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_vol
         // A few units in the last place of the coordinates.
         m_tolerance = std::max(m_tolerance, 1e-15 * std::max(std::abs(lower[d]), std::abs(upper[d])));
     }
+    if (volume.dimension() == 2)
+        m_tolerance += on_surface * length(minus(upper, lower));
     m_hierarchy = Hierarchy(boxes, {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2});
 }
 

@@ -53,10 +53,13 @@ struct ProbedPoint {
     std::uint32_t n_failures = 0;
 };
 
-/** Probes one volume, which must outlive it. One thread at a time. */
+/**
+ * Probes one volume, which must outlive it. One thread at a time. In two dimensions a point is in an element if it is on it, to
+ * on_surface (plate.hpp).
+ */
 class Prober {
 public:
-    /** An Error if the plugin lacks what the options ask for, or the volume is not three-dimensional. */
+    /** An Error if the plugin lacks what the options ask for. In two dimensions points are found on the CPU alone. */
     explicit Prober(const RuntimeVolume& volume, const ProbeOptions& options = {});
 
     /** One answer a position, in the same order. A position that is not finite lies in no element. */

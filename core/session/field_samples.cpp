@@ -5,6 +5,7 @@
 #include <core/expression/expression.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/scene/surface_distance.hpp>
+#include <core/volume/element/flat_height.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,8 @@
 namespace elvis {
 
 void need_samples(const RuntimeVolume& volume) {
-    if (volume.dimension() == 2) {
-        throw Error(volume.path(), "only volumes of three dimensions can be sampled");
+    if (volume.dimension() == 2 && !flat_height(volume)) {
+        throw Error(volume.path(), "is a surface in space, where random points are none of its own: it cannot be sampled");
     }
 }
 

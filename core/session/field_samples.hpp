@@ -22,7 +22,7 @@ namespace elvis {
 inline constexpr std::size_t n_points_a_piece = 500;
 inline constexpr unsigned n_pieces = 24;
 
-/** A volume of three dimensions, or an Error. */
+/** A volume of three dimensions, or of two in a plane of constant z; or an Error. */
 void need_samples(const RuntimeVolume& volume);
 
 /**

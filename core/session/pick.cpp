@@ -34,9 +34,11 @@ void take(const ProbedPoint& point, Picked& picked) {
     }
     picked.element = point.element;
     picked.fields = point.fields;
-    picked.jacobian = point.expressions[0].value;
-    picked.scaled_jacobian = point.expressions[1].value;
-    picked.order = point.expressions[2].value;
+    picked.order = point.expressions[0].value;
+    if (point.expressions.size() > 1) {
+        picked.jacobian = point.expressions[1].value;
+        picked.scaled_jacobian = point.expressions[2].value;
+    }
     std::sort(picked.also.begin(), picked.also.end());
 }
 
@@ -44,7 +46,11 @@ void take(const ProbedPoint& point, Picked& picked) {
 bool probe(const Ray& ray, double diagonal, std::uint32_t time_step, const RuntimeVolume& volume, Prober& prober,
            Picked& picked) {
     ProbeWishes wishes;
-    for (const char* text : {"jacobian", "scaled_jacobian", "order"}) {
+    const bool is_solid = volume.dimension() == 3;
+    for (const char* text : {"order", "jacobian", "scaled_jacobian"}) {
+        if (!is_solid && wishes.expressions.size() == 1) {
+            break; // Determinants are those of solids.
+        }
         wishes.expressions.push_back(std::make_shared<const Expression>(text, volume.fields(), volume.dimension()));
     }
     // A point of the boundary may be outside by what single precision is off: then a little deeper, or less deep.
@@ -79,9 +85,7 @@ Picked pick(const Scene& scene, const PicturePoint& place, const RuntimeVolume& 
     if (frame.element[0] >= 0) {
         picked.element = frame.element[0];
     }
-    if (volume.dimension() == 2) {
-        picked.remark = "Only volumes of three dimensions can be probed.";
-    } else if (!probe(ray, diagonal_of(renderer.ranges().bounds()), scene.time_step, volume, prober(), picked)) {
+    if (!probe(ray, diagonal_of(renderer.ranges().bounds()), scene.time_step, volume, prober(), picked)) {
         picked.remark = "The point lies in no element.";
     }
     return picked;

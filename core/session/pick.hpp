@@ -40,7 +40,7 @@ struct Picked {
     std::string remark;
 };
 
-/** Asks `place` of the scene's picture. `prober` is called where the volume has three dimensions. Throws Error. */
+/** Asks `place` of the scene's picture. `prober` is called where something is hit. Throws Error. */
 Picked pick(const Scene& scene, const PicturePoint& place, const RuntimeVolume& volume, Renderer& renderer,
             const std::function<Prober&()>& prober);
 

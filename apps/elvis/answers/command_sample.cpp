@@ -12,6 +12,7 @@
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -73,8 +74,9 @@ SamplePoints points_of(const data& volume, const Arguments& arguments) {
         return points;
     }
     if (!arguments.grid.empty()) {
-        const std::vector<std::size_t> n = grid_size("--grid", arguments.grid, 3);
-        return grid_in(box_of(volume, arguments), {n[0], n[1], n[2]});
+        const std::size_t n_numbers = std::ranges::count(arguments.grid, 'x') == 1 ? 2 : 3;
+        const std::vector<std::size_t> n = grid_size("--grid", arguments.grid, n_numbers);
+        return grid_in(box_of(volume, arguments), {n[0], n[1], n_numbers == 2 ? 1 : n[2]});
     }
     const std::vector<double> plane = numbers("--cut-plane", arguments.plane, 4, 4);
     if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0) {
@@ -161,7 +163,7 @@ void add_sample(CLI::App& app) {
         ->check(CLI::Range(2, 100'000'000))
         ->capture_default_str();
     command->add_option("--points", arguments->points, "At the points of a file");
-    command->add_option("--grid", arguments->grid, "On NxMxK points of the volume's bounds");
+    command->add_option("--grid", arguments->grid, "On NxMxK points of the volume's bounds; NxM: in the middle of their depth");
     command->add_option("--box", arguments->box, "x0,y0,z0,x1,y1,z1 in place of the volume's bounds");
     command->add_option("--cut-plane", arguments->plane, "On the plane a,b,c,d: ax+by+cz+d=0, within the bounds");
     command->add_option("--size", arguments->size, "NxM points on the plane; default: 512x512");

@@ -93,7 +93,8 @@ SamplePoints grid_in(const std::array<double, 6>& box, const std::array<std::siz
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double size = box[3 + axis] - box[axis];
         points.origin[axis] = n[axis] > 1 ? box[axis] : box[axis] + 0.5 * size;
-        points.spacing[axis] = n[axis] > 1 ? size / static_cast<double>(n[axis] - 1) : size;
+        // Of one layer it means nothing, but it must not be zero.
+        points.spacing[axis] = n[axis] > 1 ? size / static_cast<double>(n[axis] - 1) : size > 0 ? size : 1;
     }
     points.positions.reserve(3 * n[0] * n[1] * n[2]);
     for (std::size_t k = 0; k < n[2]; ++k) {

@@ -207,7 +207,7 @@ class Volume:
                     progress: Progress = True) -> np.ndarray:
         """Values of a field or expression below which these parts of the volume lie, from samples; of the first field if None.
 
-        parts: numbers in [0, 1]. Only of volumes of three dimensions.
+        parts: numbers in [0, 1]. Not of surfaces in space.
         """
         scene = self.scene(field=field, time_step=time_step)
         with progress_for(progress) as report:

@@ -1,5 +1,7 @@
 #include <core/volume/element/jacobian_check.hpp>
 
+#include <core/volume/element/flat_height.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -21,16 +23,19 @@ std::vector<double> sample_points(elvis_shape shape) {
         const bool is_inside = shape == ELVIS_SHAPE_PRISM         ? x + z <= 0
                                : shape == ELVIS_SHAPE_PYRAMID     ? x + z <= 0 && y + z <= 0
                                : shape == ELVIS_SHAPE_TETRAHEDRON ? x + y + z <= -1
+                               : shape == ELVIS_SHAPE_TRIANGLE    ? x + y <= 0
                                                                   : true;
-        if (is_inside) {
+        const bool is_needed = z < 0 || (shape != ELVIS_SHAPE_TRIANGLE && shape != ELVIS_SHAPE_QUADRILATERAL);
+        if (is_inside && is_needed) {
             xi.insert(xi.end(), {x, y, z});
         }
     }
     return xi;
 }
 
-double determinant(const double* j) {
-    return j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) + j[2] * (j[3] * j[7] - j[4] * j[6]);
+/** In two dimensions of the first two rows and columns. */
+double determinant(const double* j, bool is_flat) {
+    return is_flat ? j[0] * j[4] - j[1] * j[3] : j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) + j[2] * (j[3] * j[7] - j[4] * j[6]);
 }
 
 JacobianCheck sample(const RuntimeVolume& volume, std::uint64_t element, const std::vector<double>& xi,
@@ -38,9 +43,10 @@ JacobianCheck sample(const RuntimeVolume& volume, std::uint64_t element, const s
     jacobians.resize(3 * xi.size());
     volume.evaluate_mapping(element, xi, {}, jacobians);
     constexpr double infinity = std::numeric_limits<double>::infinity();
+    const bool is_flat = volume.dimension() == 2;
     JacobianCheck check{ELVIS_JACOBIAN_POSITIVE, {}, infinity, 0};
     for (std::size_t point = 0; point < xi.size() / 3; ++point) {
-        const double value = determinant(&jacobians[9 * point]);
+        const double value = determinant(&jacobians[9 * point], is_flat);
         const bool is_nan = !std::isfinite(value);
         if (is_nan || value < check.determinant) {
             check = {is_nan      ? ELVIS_JACOBIAN_UNDECIDED
@@ -73,7 +79,8 @@ elvis_certainty sample(const RuntimeVolume& volume, std::uint64_t first, std::sp
 } // namespace
 
 bool can_check_jacobians(const RuntimeVolume& volume) {
-    return volume.dimension() == 3 && (volume.has_jacobian_checks() || volume.has_evaluation());
+    const bool is_solid = volume.dimension() == 3;
+    return (volume.has_jacobian_checks() && is_solid) || (volume.has_evaluation() && (is_solid || flat_height(volume)));
 }
 
 JacobianReport check_jacobians(const RuntimeVolume& volume, double tolerance, const TaskControl* control) {
@@ -89,7 +96,7 @@ JacobianReport check_jacobians(const RuntimeVolume& volume, double tolerance, co
         }
         checks.assign(std::min(block, volume.n_elements() - first), {});
         const elvis_certainty certainty =
-            volume.has_jacobian_checks() ? volume.check_jacobians(first, tolerance, checks) : sample(volume, first, checks);
+            volume.has_jacobian_checks() && volume.dimension() == 3 ? volume.check_jacobians(first, tolerance, checks) : sample(volume, first, checks);
         report.certainty = std::max(report.certainty, certainty);
         for (std::uint64_t index = 0; index < checks.size(); ++index) {
             const JacobianCheck& check = checks[index];

@@ -28,7 +28,10 @@ struct JacobianReport {
     std::uint64_t n_undecided = 0;
 };
 
-/** Whether the plugin bounds Jacobians or lets them be sampled. Surfaces have none. */
+/**
+ * Whether the plugin bounds Jacobians or lets them be sampled. In two dimensions they are sampled, where all elements lie in a
+ * plane of constant z; surfaces in space have none.
+ */
 bool can_check_jacobians(const RuntimeVolume& volume);
 
 /** Of all elements; needs can_check_jacobians(). Reports progress and stops as `control` says. */

@@ -91,7 +91,8 @@ ELVIS_EXPORT elvis_result elvis_data_integrate(elvis_data* data, const elvis_int
  * elvis_data_count_values tells. Between two places the line is in one element. Elements in which it is for less than a
  * millionth of their size may be missing.
  *
- * Only of data of three dimensions, whose plugin evaluates on the CPU, and whose elements are not cut.
+ * Only of data whose plugin evaluates on the CPU, and whose elements are not cut. Data of two dimensions have to lie in a plane
+ * of constant z, and the line in it.
  */
 ELVIS_EXPORT elvis_result elvis_data_walk_line(elvis_data* data, const double from[3], const double to[3],
                                                const elvis_string* fields, uint32_t n_fields, uint32_t time_step,
