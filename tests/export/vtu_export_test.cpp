@@ -6,7 +6,11 @@
 #include <core/export/vtu_export.hpp>
 #include <core/plugin_host/plugin.hpp>
 
+#include <elvis/native/volume_file.hpp>
+
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 using namespace elvis;
 using Catch::Contains;
@@ -81,6 +85,31 @@ Difference round_trip(const std::string& text, std::uint32_t step = 0) {
     return compare(volume, back, step);
 }
 
+/** A quadrilateral and a triangle with random modes, which do not touch. */
+void write_flat_volume(const std::string& path, std::uint32_t order) {
+    native::Description description;
+    description.dimension = 2;
+    description.fields.emplace_back();
+    description.fields[0].name = "u";
+    description.fields[0].n_components = 2;
+    for (const native::Shape shape : {native::Shape::quadrilateral, native::Shape::triangle}) {
+        const native::Space space{shape, native::Basis::modified, {order, order, 0}};
+        description.classes.push_back({space, {space}, 1});
+    }
+    std::mt19937 random(order);
+    std::uniform_real_distribution<double> number(-1, 1);
+    native::Writer writer(path, description);
+    for (std::size_t index = 0; index < 2; ++index) {
+        std::vector<double> modes(3 * native::n_modes(description.classes[index].geometry));
+        std::ranges::generate(modes, [&] { return number(random) + 5 * static_cast<double>(index); });
+        writer.write_geometry(index, 0, 1, modes);
+        writer.write_field(0, 0, index, 0, 1, std::span(modes).first(2 * modes.size() / 3));
+        const std::int64_t place = static_cast<std::int64_t>(index);
+        writer.write_numbers(index, 0, 1, std::span(&place, 1));
+    }
+    writer.commit();
+}
+
 } // namespace
 
 TEST_CASE("fields come back from Lagrange cells as they were", "[vtk][export]") {
@@ -115,6 +144,21 @@ TEST_CASE("constants, vectors, steps and shapes side by side come back", "[vtk][
     const Difference linear = round_trip(R"({"generator": 1, "mesh": "box", "shape": "mixed", "elements": [4, 2, 2], "order": 1,
             "field": "sphere"})");
     CHECK(linear.value < 1e-13);
+}
+
+TEST_CASE("quadrilaterals and triangles come back, of the plane and bent in space", "[vtk][export]") {
+    static const auto plugin = Plugin::load(NATIVE_PLUGIN);
+    for (std::uint32_t order = 1; order <= 6; ++order) {
+        const TemporaryFolder folder;
+        write_flat_volume(folder.path("volume.h5"), order);
+        const RuntimeVolume volume(plugin, folder.path("volume.h5"));
+        export_vtu(volume, folder.path("volume.vtu"), {}, {});
+        const ConvertedVolume back(open_vtk({folder.path("volume.vtu")}));
+        const Difference difference = compare(volume, back, 0);
+        INFO("order " << order << ": position " << difference.position << ", value " << difference.value);
+        CHECK(difference.position < 1e-12);
+        CHECK(difference.value < 1e-12);
+    }
 }
 
 TEST_CASE("what cannot be exported is refused and leaves nothing", "[vtk][export]") {
