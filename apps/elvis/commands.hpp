@@ -20,6 +20,7 @@ void add_extrema(CLI::App& app);
 void add_help(CLI::App& app);
 void add_info(CLI::App& app);
 void add_integrate(CLI::App& app);
+void add_streamlines(CLI::App& app);
 void add_manual(CLI::App& app);
 void add_new_plugin(CLI::App& app);
 void add_plugins(CLI::App& app);

@@ -213,6 +213,41 @@ public:
         run(progress, [&](const task& watch) { displaced.emplace(m_data.warp(wanted, watch)); });
         return std::make_unique<Volume>(m_context, std::move(*displaced));
     }
+    /** Of each line begin, end, and dictionaries' arrays of its points: what elvis_data_trace finds. */
+    py::dict trace(const std::string& field, const Doubles& seeds, std::uint32_t direction, const std::vector<std::string>& fields,
+                   double tolerance, double length, std::uint32_t time_step, const py::object& progress) const {
+        if (seeds.ndim() != 2 || seeds.shape(1) != 3) {
+            throw error(ELVIS_ERROR_INVALID_ARGUMENT, "seeds: an array of the shape (n, 3) is wanted");
+        }
+        std::vector<elvis_string> names;
+        for (const std::string& name : fields) {
+            names.push_back(name.c_str());
+        }
+        auto wanted = detail::sized<elvis_tracing>();
+        wanted.time_step = time_step;
+        wanted.field = field.c_str();
+        wanted.seeds = seeds.data();
+        wanted.n_seeds = static_cast<std::uint64_t>(seeds.shape(0));
+        wanted.direction = direction;
+        wanted.n_fields = static_cast<std::uint32_t>(names.size());
+        wanted.fields = names.data();
+        wanted.tolerance = tolerance;
+        wanted.length = length;
+        traced found;
+        run(progress, [&](const task& watch) { found = m_data.trace(wanted, watch); });
+        const auto n = static_cast<py::ssize_t>(found.times.size());
+        py::dict result;
+        result["first"] = py::array_t<std::uint64_t>(static_cast<py::ssize_t>(found.first.size()), found.first.data());
+        result["begins"] = found.begins;
+        result["ends"] = found.ends;
+        result["positions"] = py::array_t<double>({n, py::ssize_t{3}}, found.positions.data());
+        result["times"] = py::array_t<double>(n, found.times.data());
+        result["arc_lengths"] = py::array_t<double>(n, found.arc_lengths.data());
+        result["elements"] = py::array_t<std::int64_t>(n, found.elements.data());
+        result["xi"] = py::array_t<double>({n, py::ssize_t{3}}, found.xi.data());
+        result["values"] = py::array_t<double>({n, static_cast<py::ssize_t>(found.n_values)}, found.values.data());
+        return result;
+    }
     /** JSON: see elvis_data_walk_line. */
     std::string walk_line(const std::array<double, 3>& from, const std::array<double, 3>& to,
                           const std::vector<std::string>& fields, std::uint32_t time_step, const py::object& progress) const {
@@ -425,6 +460,8 @@ PYBIND11_MODULE(_elvis, module) {
              py::arg("progress"))
         .def("warp", &Volume::warp, py::arg("field"), py::arg("factor"), py::arg("imaginary"), py::arg("phase"),
              py::arg("time_step"), py::arg("progress"))
+        .def("trace", &Volume::trace, py::arg("field"), py::arg("seeds"), py::arg("direction"), py::arg("fields"),
+             py::arg("tolerance"), py::arg("length"), py::arg("time_step"), py::arg("progress"))
         .def("walk_line", &Volume::walk_line, py::arg("start"), py::arg("end"), py::arg("fields"), py::arg("time_step"),
              py::arg("progress"))
         .def("update_field", &Volume::update_field, py::arg("field"), py::arg("time_step"), py::arg("element_class"),

@@ -67,11 +67,13 @@ elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame, 
         }
         Animation& state = animation->state;
         frame_of(state, frame);
-        const std::shared_ptr<Data> shown = shown_data(state.data, state.pictures.scene_of(frame), task);
+        Scene scene = state.pictures.scene_of(frame);
+        const std::shared_ptr<Data> shown = shown_data(state.data, scene, task);
         const DataTask running(*shown, task);
+        trace_streamlines(*shown, scene);
         Renderer& renderer = shown->renderer(state.precision);
         *picture = new_picture(shown, state.precision,
-                               state.pictures.draw(frame, shown->volume, renderer,
+                               state.pictures.draw(frame, scene, shown->volume, renderer,
                                                    still_options(*shown, state.precision, known), shown->control.get()));
     });
 }

@@ -57,6 +57,7 @@ inline Context* context_of(const elvis_picture* handle) {
     return handle != nullptr ? handle->state.data->context.get() : nullptr;
 }
 
+inline Context* context_of(const elvis_lines* handle) { return handle != nullptr ? handle->state.context.get() : nullptr; }
 inline Context* context_of(const elvis_animation* handle) {
     return handle != nullptr ? handle->state.data->context.get() : nullptr;
 }

@@ -2,6 +2,7 @@
 #include "call.hpp"
 
 #include <core/expression/expression.hpp>
+#include <core/probe/cpu_evaluator.hpp>
 
 namespace elvis::library {
 
@@ -29,6 +30,27 @@ Columns columns_of(const RuntimeVolume& volume, const elvis_string* fields, std:
         all.columns.push_back(column);
     }
     return all;
+}
+
+std::vector<std::vector<double>> values_at(const RuntimeVolume& volume, const Columns& columns, std::uint32_t time_step,
+                                           const std::vector<ReferencePoint>& points) {
+    CpuEvaluator evaluator(volume);
+    std::vector<std::vector<double>> values(points.size());
+    for (const Column& column : columns.columns) {
+        if (column.is_field) {
+            const std::vector<FieldSample> samples = evaluator.evaluate(column.field, time_step, points, false);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                values[i].insert(values[i].end(), samples[i].values.begin(), samples[i].values.end());
+            }
+        } else {
+            const std::vector<ExpressionSample> samples =
+                evaluator.evaluate(columns.wishes.expressions[column.expression], time_step, points, false);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                values[i].push_back(samples[i].value);
+            }
+        }
+    }
+    return values;
 }
 
 } // namespace elvis::library

@@ -32,4 +32,8 @@ struct Columns {
 /** Of names of fields and expressions. Throws for those that are not understood. */
 Columns columns_of(const RuntimeVolume& volume, const elvis_string* fields, std::uint32_t n_fields);
 
+/** The columns' values at points of elements, on the CPU: those of a point side by side. */
+std::vector<std::vector<double>> values_at(const RuntimeVolume& volume, const Columns& columns, std::uint32_t time_step,
+                                           const std::vector<ReferencePoint>& points);
+
 } // namespace elvis::library

@@ -2,6 +2,8 @@
 
 #include <core/annotation/font.hpp>
 
+#include <algorithm>
+
 namespace elvis::library {
 
 Scene scene_for(const Data& data, Scene scene) {
@@ -18,6 +20,13 @@ std::shared_ptr<Data> shown_data(const std::shared_ptr<Data>& data, const Scene&
     }
     const DataTask running(*data, task);
     return data->warped(*scene.warp, scene.time_step);
+}
+
+void trace_streamlines(Data& data, Scene& scene) {
+    const auto is_one = [](const SceneSurface& surface) { return surface.streamlines.has_value(); };
+    if (std::ranges::any_of(scene.surfaces, is_one)) {
+        data.streamlines.provide(scene, data.volume, data.bounds(), *data.control);
+    }
 }
 
 StillOptions still_options(Data& data, Precision precision, const elvis_render_options& options) {

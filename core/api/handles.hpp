@@ -18,8 +18,11 @@
 #include <core/session/picture_stats.hpp>
 #include <core/session/screen_picture.hpp>
 #include <core/session/still_picture.hpp>
+#include <core/session/streamline_tubes.hpp>
+#include <core/streamline/trace.hpp>
 #include <core/vulkan/device.hpp>
 
+#include <elvis/answers.h>
 #include <elvis/elvis.h>
 #include <nlohmann/json.hpp>
 
@@ -96,6 +99,7 @@ struct Data {
     /** Of data from arrays. */
     std::unique_ptr<Arrays> arrays;
     ExtremaFinder extrema;
+    StreamlineTubes streamlines;
 
 private:
     /** The volume on another device. A volume takes one call at a time: each device has its own. */
@@ -142,6 +146,15 @@ struct Picture {
     }
 };
 
+struct Lines {
+    std::shared_ptr<Context> context;
+    std::vector<Streamline> lines;
+    /** Of the points of all lines. */
+    std::vector<std::int64_t> elements;
+    std::uint32_t n_values = 0;
+    std::vector<double> values;
+};
+
 struct Animation {
     std::shared_ptr<Data> data;
     Precision precision = Precision::float32;
@@ -161,6 +174,9 @@ struct elvis_scene {
 };
 struct elvis_picture {
     elvis::library::Picture state;
+};
+struct elvis_lines {
+    elvis::library::Lines state;
 };
 struct elvis_animation {
     elvis::library::Animation state;

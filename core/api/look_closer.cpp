@@ -67,8 +67,9 @@ elvis_result elvis_data_pick(elvis_data* data, const elvis_scene* scene, double 
         }
         const std::shared_ptr<Data> with = shown_data(data->state, scene->state.scene, task);
         Data& state = *with;
-        const Scene shown = scene_for(state, scene->state.scene);
+        Scene shown = scene_for(state, scene->state.scene);
         const DataTask running(state, task);
+        trace_streamlines(state, shown);
         const Picked picked = pick(shown, {column, row}, state.volume, state.renderer(precision_of(shown)),
                                    [&]() -> Prober& { return state.prober(ProbeOptions::Evaluation::automatic); });
         *text = text_for_caller(picked_json(state.volume, picked).dump());

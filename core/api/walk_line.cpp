@@ -1,7 +1,6 @@
 #include "call.hpp"
 #include "columns.hpp"
 
-#include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/line_walk.hpp>
 
 #include <elvis/answers.h>
@@ -19,28 +18,6 @@ Vector3 finite_point(const double* coordinates, const char* name) {
         throw InvalidArgument(name, "is not finite");
     }
     return point;
-}
-
-/** The columns' values at points of elements: those of a point side by side. */
-std::vector<std::vector<double>> values_at(const RuntimeVolume& volume, const Columns& columns, std::uint32_t time_step,
-                                           const std::vector<ReferencePoint>& points) {
-    CpuEvaluator evaluator(volume);
-    std::vector<std::vector<double>> values(points.size());
-    for (const Column& column : columns.columns) {
-        if (column.is_field) {
-            const std::vector<FieldSample> samples = evaluator.evaluate(column.field, time_step, points, false);
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                values[i].insert(values[i].end(), samples[i].values.begin(), samples[i].values.end());
-            }
-        } else {
-            const std::vector<ExpressionSample> samples =
-                evaluator.evaluate(columns.wishes.expressions[column.expression], time_step, points, false);
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                values[i].push_back(samples[i].value);
-            }
-        }
-    }
-    return values;
 }
 
 nlohmann::ordered_json side_json(const RuntimeVolume& volume, const ReferencePoint& point, const std::vector<double>& values) {

@@ -1,9 +1,7 @@
 #include <core/base/error.hpp>
-#include <core/base/vector3.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/device_evaluator.hpp>
-#include <core/probe/plate.hpp>
 #include <core/probe/probe.hpp>
 
 #include <algorithm>
@@ -41,28 +39,10 @@ struct Owner {
 
 } // namespace
 
-Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options) : m_volume(&volume) {
-    m_evaluator = make_evaluator(volume, options);
-
+Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options)
+    : m_volume(&volume), m_evaluator(make_evaluator(volume, options)), m_boxes(volume) {
     m_numbers.resize(volume.n_elements());
     volume.element_numbers(0, volume.n_elements(), m_numbers);
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
-    Vector3 lower{};
-    Vector3 upper{};
-    for (std::size_t d = 0; d < 3 && !boxes.empty(); ++d) {
-        lower[d] = boxes[d];
-        upper[d] = boxes[3 + d];
-        for (std::size_t i = d; i < boxes.size(); i += 6) {
-            lower[d] = std::min(lower[d], boxes[i]);
-            upper[d] = std::max(upper[d], boxes[i + 3]);
-        }
-        // A few units in the last place of the coordinates.
-        m_tolerance = std::max(m_tolerance, 1e-15 * std::max(std::abs(lower[d]), std::abs(upper[d])));
-    }
-    if (volume.dimension() == 2)
-        m_tolerance += on_surface * length(minus(upper, lower));
-    m_hierarchy = Hierarchy(boxes, {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2});
 }
 
 std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::uint32_t time_step, const ProbeWishes& wishes) {
@@ -78,7 +58,7 @@ std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::
         if (!std::ranges::all_of(positions[i], [](double x) { return std::isfinite(x); }))
             continue;
         elements.clear();
-        m_hierarchy.find(positions[i], m_tolerance, elements);
+        m_boxes.append_near(positions[i], elements);
         for (const std::uint32_t element : elements) {
             queries.push_back({element, positions[i]});
             query_point.push_back(i);

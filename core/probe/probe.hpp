@@ -5,8 +5,8 @@
 #pragma once
 
 #include <core/base/vector3.hpp>
-#include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/probe/element_boxes.hpp>
 #include <core/probe/point_evaluator.hpp>
 
 #include <array>
@@ -68,11 +68,9 @@ public:
 private:
     const RuntimeVolume* m_volume;
     std::unique_ptr<PointEvaluator> m_evaluator;
-    Hierarchy m_hierarchy;
+    ElementBoxes m_boxes;
     /** Of each element. */
     std::vector<std::int64_t> m_numbers;
-    /** Distance from boxes within which elements are tried: rounding of positions. */
-    double m_tolerance = 0;
 };
 
 } // namespace elvis

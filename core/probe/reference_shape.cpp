@@ -17,6 +17,10 @@ double reference_excess(elvis_shape shape, const Vector3& xi) {
         return std::max({-x - 1, std::abs(y) - 1, -z - 1, x + z});
     case ELVIS_SHAPE_PYRAMID:
         return std::max({-x - 1, -y - 1, -z - 1, x + z, y + z});
+    case ELVIS_SHAPE_QUADRILATERAL:
+        return std::max(std::abs(x), std::abs(y)) - 1;
+    case ELVIS_SHAPE_TRIANGLE:
+        return std::max({-x - 1, -y - 1, x + y});
     default:
         assert(shape == ELVIS_SHAPE_TETRAHEDRON);
         return std::max({-x - 1, -y - 1, -z - 1, x + y + z + 1});

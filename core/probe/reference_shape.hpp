@@ -12,10 +12,10 @@
 
 namespace elvis {
 
-/** Largest violation of a face constraint; <= 0 in the closed shape. Three-dimensional shapes only. */
+/** Largest violation of a face constraint; <= 0 in the closed shape. Two-dimensional shapes have no third coordinate. */
 double reference_excess(elvis_shape shape, const Vector3& xi);
 
-/** A point of the shape near xi; xi itself if it lies in the shape. */
+/** A point of the shape near xi; xi itself if it lies in the shape. Three-dimensional shapes only, as below. */
 Vector3 project_into_shape(elvis_shape shape, const Vector3& xi);
 
 Vector3 reference_centroid(elvis_shape shape);

@@ -74,6 +74,25 @@ struct SceneContours {
     bool has_map_color = false;
 };
 
+/** Curves that are everywhere tangent to a vector field. */
+struct SceneStreamlines {
+    enum class Direction { both, forward, backward };
+
+    /** The vector field or expression. */
+    std::string flow;
+    /** Points that the lines go through; if there are none, a grid over the volume's bounds. */
+    std::vector<Vector3> seeds{};
+    /** Points of the grid along the longest side of the bounds. */
+    std::uint32_t seed_grid = 5;
+    Direction direction = Direction::both;
+    /** Of each line, in each direction; by default ten times the diagonal of the bounds. */
+    std::optional<double> length{};
+    /** Of a step's error, as a share of the diagonal of the bounds. */
+    double tolerance = 1e-9;
+    /** Of the tubes; by default a part of the diagonal. */
+    std::optional<double> radius{};
+};
+
 /** What it lacks it takes from the scene. */
 struct SceneSurface {
     SurfaceGeometry geometry;
@@ -91,6 +110,8 @@ struct SceneSurface {
     bool is_lit = true;
     /** Surfaces that are not drawn are there for expressions, and to be shown again. */
     bool is_shown = true;
+    /** Of a TubeSurface: what its tubes are about. */
+    std::optional<SceneStreamlines> streamlines{};
 };
 
 /** A triangle of density around a value, such as makes a semi-transparent isosurface. */

@@ -18,7 +18,7 @@ AnimationPictures::AnimationPictures(Scene scene, const RuntimeVolume& volume, V
     m_scene.range_steps = steps_of_animation(m_scene, volume);
     Scene first = m_scene;
     first.time_step = m_scene.range_steps.empty() ? m_scene.time_step : m_scene.range_steps.front();
-    const Camera camera = request_of(first, {first.time_step, 0}, volume, ranges).camera;
+    const Camera camera = make_frame_request(first, volume, ranges).camera;
     m_frames = animation_frames(*m_scene.animation, m_scene.range_steps, m_scene.time_step, camera);
 }
 
@@ -41,11 +41,11 @@ const FrameRequest& AnimationPictures::request_of(const Scene& scene, Moment mom
     return found->second;
 }
 
-StillPicture AnimationPictures::draw(std::size_t frame, const RuntimeVolume& volume, Renderer& renderer,
+StillPicture AnimationPictures::draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, Renderer& renderer,
                                      const StillOptions& options, const TaskControl* control) {
     const AnimationFrame& wanted = m_frames.at(frame);
     const Moment moment = moment_of(wanted);
-    FrameRequest request = request_of(scene_of(frame), moment, volume, renderer.ranges());
+    FrameRequest request = request_of(shown, moment, volume, renderer.ranges());
     request.camera = wanted.camera;
     std::vector<FrameRemark> remarks = m_drawn.contains(moment) ? std::vector<FrameRemark>() : remarks_on(m_scene, request);
     StillPicture still = draw_request(m_scene, std::move(request), volume, renderer, options, control);

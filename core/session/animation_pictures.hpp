@@ -33,10 +33,10 @@ public:
     Scene scene_of(std::size_t frame) const;
 
     /**
-     * What is to be known of a time step comes with the first picture of it. `volume`, which `renderer` draws, is displaced as
-     * scene_of(frame) says.
+     * What is to be known of a time step comes with the first picture of it. `shown` is scene_of(frame), whose streamlines have
+     * their tubes; `volume`, which `renderer` draws, is displaced as it says.
      */
-    StillPicture draw(std::size_t frame, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options, const TaskControl* control = nullptr);
+    StillPicture draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options, const TaskControl* control = nullptr);
 
     /** What all pictures that were drawn so far do not show, a sentence each. */
     std::vector<std::string> missed(VolumeRanges& ranges) const;

@@ -14,7 +14,8 @@ std::string shape_name(const CutShape& shape) {
         Overloaded{[](const Sphere&) { return "sphere"; }, [](const Cylinder&) { return "cylinder"; },
                    [](const Cone&) { return "cone"; }, [](const Quadric&) { return "quadric"; },
                    [](const Torus&) { return "torus"; }, [](const ImplicitSurface&) { return "implicit surface"; },
-                   [](const MeshSurface&) { return "mesh"; }, [](const BezierSurface&) { return "Bezier patches"; }},
+                   [](const MeshSurface&) { return "mesh"; }, [](const BezierSurface&) { return "Bezier patches"; },
+                   [](const TubeSurface&) { return "streamlines"; }},
         shape);
 }
 

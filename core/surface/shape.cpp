@@ -57,6 +57,7 @@ public:
     /** The file's reader has checked. */
     void operator()(const MeshSurface&) const {}
     void operator()(const BezierSurface&) const {}
+    void operator()(const TubeSurface&) const {}
 
 private:
     void finite(const char* key, const Vector3& vector) const {

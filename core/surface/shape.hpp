@@ -7,6 +7,7 @@
 #include <core/base/vector3.hpp>
 #include <core/surface/patch_mesh.hpp>
 #include <core/surface/triangle_mesh.hpp>
+#include <core/surface/tube_set.hpp>
 
 #include <array>
 #include <memory>
@@ -62,7 +63,13 @@ struct BezierSurface {
     std::shared_ptr<const PatchMesh> mesh; ///< not null
 };
 
-using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface>;
+struct TubeSurface {
+    /** Null before its curves are known: then it can be read and written, not drawn. */
+    std::shared_ptr<const TubeSet> tubes;
+};
+
+using CutShape =
+    std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface, TubeSurface>;
 
 /** Checks what the comments above ask for; throws Error that names `place` and the number. */
 void check_shape(const CutShape& shape, const std::string& place);

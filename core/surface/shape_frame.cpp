@@ -186,6 +186,7 @@ std::array<double, 6> join(const std::array<double, 6>& a, const std::array<doub
 std::string shape_solver(const CutShape& shape) {
     return std::holds_alternative<MeshSurface>(shape)       ? "mesh"
            : std::holds_alternative<BezierSurface>(shape)   ? "bezier"
+           : std::holds_alternative<TubeSurface>(shape)     ? "tubes"
            : std::holds_alternative<ImplicitSurface>(shape) ? "implicit"
            : std::holds_alternative<Torus>(shape)           ? "torus"
            : has_ends(shape)                                ? "round"
@@ -203,6 +204,9 @@ ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
     }
     if (solver == "mesh" || solver == "bezier") {
         return {solver, {row(convert(reference) - convert(shape_middle(shape)), 0)}};
+    }
+    if (const auto* surface = std::get_if<TubeSurface>(&shape)) {
+        return {solver, {row(convert(reference) - convert(shape_middle(shape)), surface->tubes->radius)}};
     }
     return {solver, quadric_rows(std::visit(FormOf{convert(reference)}, shape))};
 }
@@ -230,6 +234,7 @@ std::array<double, 6> shape_bounds(const CutShape& shape) {
         }
         std::array<double, 6> operator()(const MeshSurface& surface) const { return surface.mesh->bounds(); }
         std::array<double, 6> operator()(const BezierSurface& surface) const { return surface.mesh->bounds(); }
+        std::array<double, 6> operator()(const TubeSurface& surface) const { return surface.tubes->bounds(); }
         std::array<double, 6> operator()(const Torus& torus) const {
             return box_of(torus.center, torus.major_radius + torus.minor_radius);
         }

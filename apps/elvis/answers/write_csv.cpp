@@ -1,51 +1,27 @@
+#include "csv_text.hpp"
 #include "sample_files.hpp"
 
 #include <core/base/error.hpp>
 #include <core/base/output_file.hpp>
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 
 namespace elvis::commands {
 
 namespace {
 
-/** Names with commas or quotes stand in quotes (RFC 4180). */
-std::string quoted(const std::string& name) {
-    if (name.find_first_of(",\"\n") == std::string::npos) {
-        return name;
-    }
-    std::string text(1, '"');
-    for (const char letter : name) {
-        text.append(letter == '"' ? 2 : 1, letter);
-    }
-    text += '"';
-    return text;
-}
-
-/** In as few digits as give the same number again; nothing if there is none. */
-void append(std::string& row, double number) {
-    row += ',';
-    if (std::isfinite(number)) {
-        std::array<char, 32> text{};
-        row.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr);
-    }
-}
-
 std::string header(const SampleTable& table) {
     std::string row = table.points.arc_lengths.empty() ? "x,y,z,element" : "arc_length,x,y,z,element";
     for (const SampledColumn& column : table.columns) {
         for (std::uint32_t component = 0; component < column.n_components; ++component) {
-            row.append(",").append(quoted(column.component(component)));
+            row.append(",").append(csv_name(column.component(component)));
         }
     }
     for (const SampledColumn& column : table.columns) {
         for (std::uint32_t component = 0; !table.gradients.empty() && component < column.n_components; ++component) {
             for (const char* axis : {"x", "y", "z"}) {
                 row.append(",").append(
-                    quoted(std::string("d(").append(column.component(component)).append(",").append(axis).append(")")));
+                    csv_name(std::string("d(").append(column.component(component)).append(",").append(axis).append(")")));
             }
         }
     }
@@ -55,21 +31,21 @@ std::string header(const SampleTable& table) {
 std::string row_of(const SampleTable& table, std::size_t point) {
     std::string row;
     if (!table.points.arc_lengths.empty()) {
-        append(row, table.points.arc_lengths[point]);
+        append_csv_number(row, table.points.arc_lengths[point]);
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        append(row, table.points.positions[3 * point + axis]);
+        append_csv_number(row, table.points.positions[3 * point + axis]);
     }
     row += ',';
     if (table.elements[point] >= 0) {
         row += std::to_string(table.elements[point]);
     }
     for (std::size_t value = 0; value < table.n_values; ++value) {
-        append(row, table.values[point * table.n_values + value]);
+        append_csv_number(row, table.values[point * table.n_values + value]);
     }
     const std::size_t n_gradients = table.gradients.empty() ? 0 : 3 * std::size_t{table.n_values};
     for (std::size_t number = 0; number < n_gradients; ++number) {
-        append(row, table.gradients[point * n_gradients + number]);
+        append_csv_number(row, table.gradients[point * n_gradients + number]);
     }
     return row.substr(1) + "\n";
 }

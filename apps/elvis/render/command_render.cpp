@@ -164,6 +164,8 @@ void add_render(CLI::App& app) {
     add_surfaces(*command, *a);
     add_volume(*command, *a);
     add_warp(*command, a->warp);
+    command->add_option("--streamlines", a->streamlines,
+                        "Tubes along this vector field, from a grid of points; a scene says more about them");
     add_lines_and_colors(*command, *a);
     add_camera(*command, *a);
     add_picture(*command, *a);

@@ -43,7 +43,7 @@ std::string whole_path(const std::string& path) { return std::filesystem::absolu
 
 /** Surfaces of the command line stand instead of those of the file. */
 void apply_surfaces(const RenderArguments& arguments, Document& scene) {
-    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty()) {
+    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty() || !arguments.streamlines.empty()) {
         scene.remove("/surfaces");
         scene.remove("/isosurfaces");
     }
@@ -65,6 +65,9 @@ void apply_surfaces(const RenderArguments& arguments, Document& scene) {
         std::vector<double> values = arguments.isovalues;
         std::sort(values.begin(), values.end());
         scene.set("/surfaces/-", {{"type", "isosurface"}, {"values", values}});
+    }
+    if (!arguments.streamlines.empty()) {
+        scene.set("/surfaces/-", {{"type", "streamlines"}, {"flow", arguments.streamlines}});
     }
 }
 
@@ -296,7 +299,8 @@ void apply_image(const RenderArguments& arguments, Document& scene) {
     }
     if (!arguments.lighting.empty()) {
         scene.set("/lighting", arguments.lighting);
-    } else if (!arguments.is_scene && !arguments.isovalues.empty() && arguments.cut_planes.empty() && !arguments.boundary) {
+    } else if (!arguments.is_scene && (!arguments.isovalues.empty() || !arguments.streamlines.empty()) &&
+               arguments.cut_planes.empty() && !arguments.boundary) {
         // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read. A scene says what
         // it wants.
         scene.set("/lighting", "default");

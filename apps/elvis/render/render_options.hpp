@@ -38,6 +38,8 @@ struct RenderArguments {
     std::vector<std::string> boundary_groups;
     bool boundary = false;
     std::vector<double> isovalues;
+    /** The vector field. */
+    std::string streamlines;
     std::string volume;
     std::string integrator;
     double volume_step = 0;

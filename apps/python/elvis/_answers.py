@@ -1,4 +1,4 @@
-"""What is asked of a volume without a picture: integrals, and what a line meets."""
+"""What is asked of a volume without a picture: integrals, what a line meets, and streamlines."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,6 +30,45 @@ class Integral:
 
     def __float__(self) -> float:
         return self.value
+
+
+ENDS = ("left volume", "stagnation", "length", "steps", "jump", "no element")
+"""Why lines begin and end: the numbers of the library, in words."""
+
+
+@dataclass(frozen=True)
+class Streamline:
+    """A curve that is everywhere tangent to a vector field; points in the order of time."""
+
+    begin: str
+    """Why it begins there: left volume, stagnation, length (or the seed), steps, jump, no element."""
+    end: str
+    positions: np.ndarray
+    """(n, 3)"""
+    times: np.ndarray
+    """(n,): from the seed on, negative upstream."""
+    arc_lengths: np.ndarray
+    elements: np.ndarray
+    xi: np.ndarray
+    """(n, 3): reference coordinates."""
+    values: dict[str, np.ndarray]
+    """Of each field asked for: (n,), or (n, components)."""
+
+
+def streamlines_of(found: dict, fields: Sequence[str], n_values: Sequence[int]) -> list[Streamline]:
+    """From what the library gives."""
+    lines = []
+    for line, (first, last) in enumerate(zip(found["first"], found["first"][1:])):
+        of_line = slice(int(first), int(last))
+        values, column = {}, 0
+        for name, n in zip(fields, n_values):
+            part = found["values"][of_line, column:column + n]
+            values[name] = part[:, 0] if n == 1 else part
+            column += n
+        lines.append(Streamline(ENDS[found["begins"][line]], ENDS[found["ends"][line]], found["positions"][of_line],
+                                found["times"][of_line], found["arc_lengths"][of_line], found["elements"][of_line], found["xi"][of_line],
+                                values))
+    return lines
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,10 @@ class Volume:
     def warp(
         self, field: str, factor: float, imaginary: str | None, phase: float, time_step: int, progress: Progress
     ) -> Volume: ...
+    def trace(
+        self, field: str, seeds: NDArray[np.float64], direction: int, fields: list[str], tolerance: float, length: float,
+        time_step: int, progress: Progress
+    ) -> dict[str, Any]: ...
     def walk_line(self, start: list[float], end: list[float], fields: list[str], time_step: int, progress: Progress) -> str: ...
     def probe(
         self, points: NDArray[np.float64], fields: list[str], time_step: int, progress: Progress

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _elvis
-from ._answers import Break, Integral, breaks_of
+from ._answers import Break, Integral, Streamline, breaks_of, streamlines_of
 from ._frames import Frames
 from ._library import context
 from ._picture import Picture
@@ -128,6 +128,21 @@ class Volume:
         with progress_for(progress) as report:
             return Integral(**self._handle.integrate(domain, field, groups, [0.0] * 4 if plane is None else list(plane), level_field,
                                                      0.0 if isosurface is None else isosurface, flux, time_step, tolerance, report))
+
+    def streamlines(self, field: str, seeds: ArrayLike, fields: str | Sequence[str] = (), *, direction: str = "both", tolerance: float = 1e-9,
+                    length: float = 0.0, time_step: int = 0, progress: Progress = True) -> list[Streamline]:
+        """Curves that are everywhere tangent to a vector field, one through each seed.
+
+        field: a vector by name or expression. seeds: (n, 3). fields: names or expressions whose values at the points are wanted.
+        direction: both, forward or backward. tolerance: of a step's error, as a share of the diagonal of the bounds. length: of a line
+        in each direction; 0 is ten times the diagonal.
+        """
+        names = [fields] if isinstance(fields, str) else list(fields)
+        n_values = [self._handle.count_values(name) for name in names]
+        with progress_for(progress) as report:
+            found = self._handle.trace(field, np.atleast_2d(np.asarray(seeds, dtype=float)), ("both", "forward", "backward").index(direction),
+                                       names, tolerance, length, time_step, report)
+        return streamlines_of(found, names, n_values)
 
     def warp(self, field: str, factor: float = 1.0, *, imaginary: str | None = None, phase: float = 0.0, time_step: int = 0,
              progress: Progress = True) -> "Volume":

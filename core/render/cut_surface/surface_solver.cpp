@@ -26,7 +26,7 @@ SolverKind kind_of(const std::string& solver) {
     if (solver == "round") {
         return {"quadric", {{"CORE_HAS_ENDS", "1"}}};
     }
-    if (solver == "mesh" || solver == "bezier" || solver == "implicit") {
+    if (solver == "mesh" || solver == "bezier" || solver == "tubes" || solver == "implicit") {
         return {solver, {}, 4};
     }
     return {solver, {{"CORE_HAS_ENDS", "0"}}};
@@ -104,6 +104,8 @@ std::string solver_key(const CutShape& shape) {
         key << ' ' << function->expression;
     } else if (const auto* patches = std::get_if<BezierSurface>(&shape)) {
         key << ' ' << static_cast<const void*>(patches->mesh.get());
+    } else if (const auto* tubes = std::get_if<TubeSurface>(&shape)) {
+        key << ' ' << static_cast<const void*>(tubes->tubes.get());
     }
     return key.str();
 }
@@ -137,6 +139,10 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
         m_mesh = patches->mesh;
         upload(*patches->mesh, shape_middle(shape));
         request.buffers = {{"core_patches", m_items.get()}, {"core_nodes", m_nodes.get()}};
+    } else if (const auto* tubes = std::get_if<TubeSurface>(&shape)) {
+        m_mesh = tubes->tubes;
+        upload(*tubes->tubes, shape_middle(shape));
+        request.buffers = {{"core_tubes", m_items.get()}, {"core_nodes", m_nodes.get()}};
     }
     request.bindings = buffer_bindings({.uniform = 2, .storage = 7});
     request.push_constant_bytes = sizeof(HitsParameters);
@@ -177,6 +183,27 @@ void SurfaceSolver::upload(const PatchMesh& mesh, const Vector3& middle) {
     }
     upload_nodes(boxes, middle);
     m_items = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, points.size() / 48, 48);
+    m_items->write_reals(0, points);
+}
+
+void SurfaceSolver::upload(const TubeSet& tubes, const Vector3& middle) {
+    std::vector<double> points, boxes;
+    for (const TubeSet::Piece& piece : tubes.pieces) {
+        for (const Vector3& point : piece) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                points.push_back(point[i] - middle[i]);
+            }
+        }
+        Box box;
+        std::vector<double> corners;
+        for (const double side : {-tubes.radius, tubes.radius}) {
+            add_point(plus(piece[1], {side, side, side}), middle, box, corners);
+            add_point(plus(piece[2], {side, side, side}), middle, box, corners);
+        }
+        add_box(box, middle, boxes);
+    }
+    upload_nodes(boxes, middle);
+    m_items = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, tubes.pieces.size(), 12);
     m_items->write_reals(0, points);
 }
 

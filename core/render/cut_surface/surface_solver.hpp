@@ -51,6 +51,7 @@ public:
 private:
     void upload(const TriangleMesh& mesh, const Vector3& middle);
     void upload(const PatchMesh& mesh, const Vector3& middle);
+    void upload(const TubeSet& tubes, const Vector3& middle);
     void upload_nodes(std::span<const double> boxes, const Vector3& middle);
 
     const Device& m_device;

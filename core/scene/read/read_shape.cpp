@@ -27,14 +27,20 @@ const std::vector<PlaceKey>& place_keys() {
         {"box", {"elements", "wireframe"}},
         {"faces", {"elements", "wireframe"}},
         {"width", {"wireframe"}},
-        {"color", {"wireframe", "isosurface"}},
+        {"color", {"wireframe", "isosurface", "streamlines"}},
         {"values", {"isosurface"}},
         {"color_field", {"isosurface"}},
         {"range_skipping", {"isosurface"}},
         {"method", {"isosurface"}},
         {"degree", {"isosurface"}},
         {"center", {"sphere", "torus"}},
-        {"radius", {"sphere", "cylinder"}},
+        {"radius", {"sphere", "cylinder", "streamlines"}},
+        {"flow", {"streamlines"}},
+        {"seeds", {"streamlines"}},
+        {"seed_grid", {"streamlines"}},
+        {"direction", {"streamlines"}},
+        {"length", {"streamlines"}},
+        {"tolerance", {"streamlines"}},
         {"from", {"cylinder", "cone"}},
         {"to", {"cylinder", "cone"}},
         {"from_radius", {"cone"}},
@@ -46,7 +52,7 @@ const std::vector<PlaceKey>& place_keys() {
         {"minor_radius", {"torus"}},
         {"expression", {"implicit"}},
         {"file", {"mesh", "bezier"}},
-        {"outside", {"plane", "sphere", "cylinder", "cone", "quadric", "torus", "implicit", "mesh", "bezier"}}};
+        {"outside", {"plane", "sphere", "cylinder", "cone", "quadric", "torus", "implicit", "mesh", "bezier", "streamlines"}}};
     return keys;
 }
 

@@ -140,6 +140,12 @@ SceneSurface read_surface(const JsonObject& object, const std::string& type, con
         if (object.has("color_field")) {
             surface.color_field = object.text("color_field");
         }
+    } else if (type == "streamlines") {
+        surface.geometry = TubeSurface{};
+        surface.streamlines = read_streamlines(object);
+        if (object.has("color")) {
+            surface.color_map = uniform_color_map(fixed<3>(object.numbers("color")));
+        }
     } else {
         surface.geometry = read_shape(object, type, scene);
     }

@@ -89,8 +89,25 @@ SceneJson shape_json(const CutShape& shape, const std::string& scene) {
                    },
                    [&](const BezierSurface& s) {
                        return SceneJson{{"type", "bezier"}, {"file", seen_from(scene, s.mesh->path)}};
+                   },
+                   [](const TubeSurface&) {
+                       return SceneJson{{"type", "streamlines"}};
                    }},
         shape);
+}
+
+void add_streamlines(SceneJson& json, const SceneStreamlines& lines) {
+    constexpr const char* words[] = {"both", "forward", "backward"};
+    json["flow"] = lines.flow;
+    if (lines.seeds.empty()) {
+        json["seed_grid"] = lines.seed_grid;
+    } else {
+        json["seeds"] = lines.seeds;
+    }
+    json["direction"] = words[static_cast<std::size_t>(lines.direction)];
+    set(json, "length", lines.length);
+    json["tolerance"] = lines.tolerance;
+    set(json, "radius", lines.radius);
 }
 
 SceneJson geometry_json(const SurfaceGeometry& geometry, const std::string& scene) {
@@ -138,6 +155,9 @@ SceneJson surface_json(const SceneSurface& surface, const std::string& scene) {
     SceneJson json = geometry_json(surface.geometry, scene);
     const SurfaceTraits traits = traits_of(surface.geometry);
     const bool is_wireframe = traits.wires != nullptr, is_isosurface = traits.isosurfaces != nullptr;
+    if (surface.streamlines) {
+        add_streamlines(json, *surface.streamlines);
+    }
     if (!surface.name.empty()) {
         json["name"] = surface.name;
     }
@@ -148,7 +168,7 @@ SceneJson surface_json(const SceneSurface& surface, const std::string& scene) {
         json["color_field"] = *surface.color_field;
     }
     const std::optional<Rgb> color = only_color(surface.color_map);
-    if (color && (is_wireframe || (is_isosurface && !surface.color_field))) {
+    if (color && (is_wireframe || surface.streamlines || (is_isosurface && !surface.color_field))) {
         json["color"] = *color;
     } else if (surface.color_map) {
         json["color_map"] = color_map_json(*surface.color_map, scene);

@@ -1,6 +1,6 @@
 /**
  * @file answers.h
- * What is asked of data without a picture: integrals, and what a straight line meets. Rules and threads are those of elvis.h.
+ * What is asked of data without a picture: integrals, what a straight line meets, and streamlines. Rules and threads are those of elvis.h.
  * Everything is evaluated in double precision, in the true basis on the true geometry.
  *
  *     elvis_integration wanted = {.struct_size = sizeof wanted, .domain = ELVIS_DOMAIN_BOUNDARY, .field = "u", .is_flux = 1};
@@ -97,6 +97,84 @@ ELVIS_EXPORT elvis_result elvis_data_integrate(elvis_data* data, const elvis_int
 ELVIS_EXPORT elvis_result elvis_data_walk_line(elvis_data* data, const double from[3], const double to[3],
                                                const elvis_string* fields, uint32_t n_fields, uint32_t time_step,
                                                const elvis_task* task, char** text);
+
+/* ---- Streamlines -------------------------------------------------------------------------------------------------------- */
+
+/** Curves that are everywhere tangent to a vector field. Released by elvis_lines_release. */
+typedef struct elvis_lines elvis_lines;
+
+typedef uint32_t elvis_line_direction;
+#define ELVIS_LINE_BOTH 0u
+#define ELVIS_LINE_FORWARD 1u
+#define ELVIS_LINE_BACKWARD 2u
+
+typedef uint32_t elvis_line_end;
+/** No element goes on. */
+#define ELVIS_LINE_LEFT_VOLUME 0u
+/** The field is zero, but for rounding. */
+#define ELVIS_LINE_STAGNATION 1u
+/** As long as was wanted; the seed, where one direction alone was wanted. */
+#define ELVIS_LINE_LENGTH 2u
+/** As many steps as are allowed, a hundred thousand. */
+#define ELVIS_LINE_STEPS 3u
+/** The field jumps at a face, and leads back from both sides. */
+#define ELVIS_LINE_JUMP 4u
+/** The seed lies in no element: the line has no points. */
+#define ELVIS_LINE_NO_ELEMENT 5u
+
+typedef struct elvis_tracing {
+    uint32_t struct_size;
+    uint32_t time_step;
+    /** A vector field or expression. */
+    elvis_string field;
+    /** Points that lines go through, 3 numbers each: one line a seed. */
+    const double* seeds;
+    uint64_t n_seeds;
+    elvis_line_direction direction;
+    /** Fields and expressions whose values at the lines' points are wanted. */
+    uint32_t n_fields;
+    const elvis_string* fields;
+    /** Of a step's error, as a share of the diagonal of the bounds; 0: 1e-9. */
+    double tolerance;
+    /** Of a line in each direction; 0: ten times the diagonal. */
+    double length;
+} elvis_tracing;
+
+typedef struct elvis_lines_info {
+    uint32_t struct_size;
+    /** Numbers a point of the values asked for. */
+    uint32_t n_values;
+    uint64_t n_lines;
+    /** Of all lines. */
+    uint64_t n_points;
+} elvis_lines_info;
+
+/** Arrays of the caller's; those that are NULL are not wanted. */
+typedef struct elvis_line_arrays {
+    uint32_t struct_size;
+    uint32_t reserved;
+    /** n_lines + 1: points first[i] to first[i+1] - 1 are those of line i, in the order of time. */
+    uint64_t* first;
+    /** n_lines each: why lines begin and end where they do. */
+    elvis_line_end *begins, *ends;
+    /** n_points each, positions and xi 3 numbers a point: times and lengths from the seed on, negative upstream. */
+    double *positions, *times, *arc_lengths;
+    /** Numbers of elements, and reference coordinates in them. */
+    int64_t* elements;
+    double* xi;
+    /** n_values numbers a point. */
+    double* values;
+} elvis_line_arrays;
+
+/**
+ * Streamlines, integrated in the reference coordinates of each element (Dormand and Prince, order 5) and handed over at faces.
+ * Only of data whose plugin evaluates on the CPU, and whose elements are not cut.
+ */
+ELVIS_EXPORT elvis_result elvis_data_trace(elvis_data* data, const elvis_tracing* tracing, const elvis_task* task,
+                                           elvis_lines** lines);
+ELVIS_EXPORT elvis_result elvis_lines_get_info(const elvis_lines* lines, elvis_lines_info* info);
+ELVIS_EXPORT elvis_result elvis_lines_read(const elvis_lines* lines, const elvis_line_arrays* arrays);
+ELVIS_EXPORT void elvis_lines_release(elvis_lines* lines);
 
 #ifdef __cplusplus
 }

@@ -77,6 +77,7 @@ struct release {
     void operator()(elvis_scene* handle) const { elvis_scene_release(handle); }
     void operator()(elvis_picture* handle) const { elvis_picture_release(handle); }
     void operator()(elvis_animation* handle) const { elvis_animation_release(handle); }
+    void operator()(elvis_lines* handle) const { elvis_lines_release(handle); }
     void operator()(char* text) const { elvis_text_release(text); }
 };
 
@@ -255,6 +256,17 @@ struct probed {
     std::vector<std::uint8_t> estimated;
 };
 
+/** Streamlines: see elvis_line_arrays, of which these are the arrays. */
+struct traced {
+    std::vector<std::uint64_t> first;
+    std::vector<elvis_line_end> begins, ends;
+    std::vector<double> positions, times, arc_lengths;
+    std::vector<std::int64_t> elements;
+    std::vector<double> xi, values;
+    /** A point's values. */
+    std::uint32_t n_values = 0;
+};
+
 /** A volume that is open. */
 class data {
 public:
@@ -321,6 +333,38 @@ public:
         check(elvis_data_walk_line(get(), from.data(), to.data(), names.data(), static_cast<std::uint32_t>(names.size()),
                                    time_step, &c_watch, &text));
         return detail::taken(text);
+    }
+    /** See elvis_data_trace. */
+    traced trace(const elvis_tracing& tracing, const task& watch = {}) const {
+        elvis_lines* handle = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_trace(get(), &tracing, &c_watch, &handle));
+        const std::unique_ptr<elvis_lines, detail::release> lines(handle);
+        auto info = detail::sized<elvis_lines_info>();
+        check(elvis_lines_get_info(handle, &info));
+        traced all;
+        all.n_values = info.n_values;
+        all.first.resize(info.n_lines + 1);
+        all.begins.resize(info.n_lines);
+        all.ends.resize(info.n_lines);
+        all.positions.resize(3 * info.n_points);
+        all.times.resize(info.n_points);
+        all.arc_lengths.resize(info.n_points);
+        all.elements.resize(info.n_points);
+        all.xi.resize(3 * info.n_points);
+        all.values.resize(info.n_points * info.n_values);
+        auto arrays = detail::sized<elvis_line_arrays>();
+        arrays.first = all.first.data();
+        arrays.begins = all.begins.data();
+        arrays.ends = all.ends.data();
+        arrays.positions = all.positions.data();
+        arrays.times = all.times.data();
+        arrays.arc_lengths = all.arc_lengths.data();
+        arrays.elements = all.elements.data();
+        arrays.xi = all.xi.data();
+        arrays.values = all.values.data();
+        check(elvis_lines_read(handle, &arrays));
+        return all;
     }
     /** As the struct says. */
     void probe(const elvis_probe& request, const task& watch = {}) const {

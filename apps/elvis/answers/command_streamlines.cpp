@@ -1,0 +1,157 @@
+#include "line_files.hpp"
+#include "sample_points.hpp"
+#include <apps/elvis/commands.hpp>
+#include <apps/elvis/library_context.hpp>
+#include <apps/elvis/number_list.hpp>
+#include <apps/elvis/open_volume.hpp>
+#include <apps/elvis/warp_option.hpp>
+
+#include <core/base/counted.hpp>
+#include <core/base/error.hpp>
+
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace elvis::commands {
+
+namespace {
+
+struct Arguments {
+    std::vector<std::string> files;
+    std::string plugin;
+    WarpArguments warp;
+    std::string field;
+    std::vector<std::string> line;
+    std::string seeds;
+    std::size_t count = 20;
+    std::string direction = "both";
+    std::vector<std::string> fields;
+    double length = 0, tolerance = 0;
+    std::uint32_t time_step = 0;
+    std::string output;
+};
+
+Vector3 point_of(const std::string& text) {
+    const std::vector<double> three = numbers("--line", text, 3, 3);
+    return {three[0], three[1], three[2]};
+}
+
+std::vector<double> seeds_of(const Arguments& arguments) {
+    if (arguments.line.empty() == arguments.seeds.empty()) {
+        throw UsageError("elvis streamlines", "takes one of --line and --seeds");
+    }
+    if (!arguments.line.empty()) {
+        return points_along({point_of(arguments.line[0]), point_of(arguments.line[1])}, arguments.count).positions;
+    }
+    std::vector<double> seeds;
+    for (const Vector3& point : read_points(arguments.seeds)) {
+        seeds.insert(seeds.end(), point.begin(), point.end());
+    }
+    return seeds;
+}
+
+traced traced_lines(const data& volume, const Arguments& arguments, const std::vector<double>& seeds) {
+    std::vector<elvis_string> names;
+    for (const std::string& name : arguments.fields) {
+        names.push_back(name.c_str());
+    }
+    auto wanted = detail::sized<elvis_tracing>();
+    wanted.time_step = arguments.time_step;
+    wanted.field = arguments.field.c_str();
+    wanted.seeds = seeds.data();
+    wanted.n_seeds = seeds.size() / 3;
+    wanted.direction = arguments.direction == "forward"    ? ELVIS_LINE_FORWARD
+                       : arguments.direction == "backward" ? ELVIS_LINE_BACKWARD
+                                                           : ELVIS_LINE_BOTH;
+    wanted.n_fields = static_cast<std::uint32_t>(names.size());
+    wanted.fields = names.data();
+    wanted.tolerance = arguments.tolerance;
+    wanted.length = arguments.length;
+    TaskControl control;
+    const ProgressBar progress(control);
+    const InterruptGuard guard(control);
+    return volume.trace(wanted, {[&](double fraction, const char* activity) { control.progress(fraction, activity); },
+                                 [&] { return control.is_cancelled(); }});
+}
+
+std::vector<LineColumn> columns_of(const data& volume, const std::vector<std::string>& fields) {
+    std::vector<LineColumn> columns;
+    for (const std::string& field : fields) {
+        const elvis_string name = field.c_str();
+        columns.push_back({field, volume.count_values(&name, 1)});
+    }
+    return columns;
+}
+
+void say_ends(const traced& lines) {
+    std::array<std::size_t, ELVIS_LINE_NO_ELEMENT + 1> counts{};
+    for (std::size_t line = 0; line < lines.begins.size(); ++line) {
+        ++counts[lines.begins[line]];
+        counts[lines.ends[line]] += lines.begins[line] != ELVIS_LINE_NO_ELEMENT ? 1 : 0;
+    }
+    std::printf("%s, %s\n", counted(lines.begins.size(), "line").c_str(), counted(lines.times.size(), "point").c_str());
+    for (elvis_line_end end = 0; end < counts.size(); ++end) {
+        if (counts[end] > 0) {
+            std::printf("  %zu %s\n", counts[end], word_of(end));
+        }
+    }
+}
+
+void run(const Arguments& arguments) {
+    const bool is_csv = arguments.output.ends_with(".csv");
+    if (!is_csv && !arguments.output.ends_with(".vtp")) {
+        throw UsageError("--output", "'" + arguments.output + "' ends neither in .vtp nor in .csv");
+    }
+    const std::vector<double> seeds = seeds_of(arguments);
+    const context library = library_context();
+    const data volume =
+        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
+               arguments.warp, arguments.time_step);
+    const std::vector<LineColumn> columns = columns_of(volume, arguments.fields);
+    const traced lines = traced_lines(volume, arguments, seeds);
+    is_csv ? write_line_csv(lines, columns, arguments.output) : write_vtp(lines, columns, arguments.output);
+    say_ends(lines);
+}
+
+} // namespace
+
+const char* word_of(elvis_line_end end) {
+    constexpr const char* words[] = {"ends where the volume ends",
+                                     "ends where the field is zero",
+                                     "ends at the length or the seed",
+                                     "ends after as many steps as are allowed",
+                                     "ends at faces where the field jumps back",
+                                     "seeds in no element"};
+    return words[end];
+}
+
+void add_streamlines(CLI::App& app) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("streamlines", "Write curves that are everywhere tangent to a vector field");
+    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
+        ->required();
+    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    command->add_option("--field", arguments->field, "The vector field or expression")->required();
+    command->add_option("--line", arguments->line, "x,y,z x,y,z: seeds evenly along a line")->expected(2);
+    command->add_option("--count", arguments->count, "Seeds along the line; default: 20")->check(CLI::Range(1, 1000000));
+    command->add_option("--seeds", arguments->seeds, "File with three numbers a line; # starts a comment");
+    command->add_option("--direction", arguments->direction, "both (default), forward or backward")
+        ->check(CLI::IsMember({"both", "forward", "backward"}));
+    command->add_option("--values", arguments->fields, "Field or expression whose values are written, too (repeatable)")
+        ->allow_extra_args(false);
+    command->add_option("--length", arguments->length, "Of a line in each direction; default: ten times the diagonal")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "Of a step's error, as a share of the diagonal of the bounds; default: 1e-9")
+        ->check(CLI::Range(1e-14, 0.01));
+    add_warp(*command, arguments->warp);
+    command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
+    command->add_option("-o,--output", arguments->output, "File to write: .vtp or .csv")->required();
+    command->callback([arguments] { run(*arguments); });
+}
+
+} // namespace elvis::commands

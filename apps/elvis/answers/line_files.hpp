@@ -1,0 +1,29 @@
+/**
+ * @file line_files.hpp
+ * The files of `elvis streamlines`. Each appears whole or not at all.
+ */
+#pragma once
+
+#include <elvis/elvis.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace elvis::commands {
+
+/** A field or expression of which a file has the values. */
+struct LineColumn {
+    std::string name;
+    std::uint32_t n_components = 1;
+};
+
+/** As people read it: why a line begins or ends. */
+const char* word_of(elvis_line_end end);
+
+/** A row a point: the line's number, time, arc length, position, element, values. */
+void write_line_csv(const traced& lines, const std::vector<LineColumn>& columns, const std::string& path);
+/** VTK's PolyData: a polyline a line, `time`, `arc_length`, `element` and values at points, `begin` and `end` of lines. */
+void write_vtp(const traced& lines, const std::vector<LineColumn>& columns, const std::string& path);
+
+} // namespace elvis::commands

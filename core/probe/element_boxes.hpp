@@ -1,0 +1,38 @@
+/**
+ * @file element_boxes.hpp
+ * Which elements may hold a point, by their boxes.
+ */
+#pragma once
+
+#include <core/base/vector3.hpp>
+#include <core/hierarchy/hierarchy.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/probe/point_evaluator.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace elvis {
+
+/** Any number of threads may ask. */
+class ElementBoxes {
+public:
+    explicit ElementBoxes(const RuntimeVolume& volume);
+
+    /** Appends the elements whose boxes come near the point, in no particular order. */
+    void append_near(const Vector3& position, std::vector<std::uint32_t>& elements) const {
+        m_hierarchy.find(position, m_tolerance, elements);
+    }
+    /** Of the volume they were made of, on the CPU: the elements that hold the point, and where; ascending. */
+    std::vector<ReferencePoint> holders(const RuntimeVolume& volume, const Vector3& position) const;
+    /** Of the volume's bounds. */
+    double diagonal() const { return m_diagonal; }
+
+private:
+    Hierarchy m_hierarchy;
+    /** Distance from boxes within which elements are tried: rounding of positions. */
+    double m_tolerance = 0;
+    double m_diagonal = 0;
+};
+
+} // namespace elvis

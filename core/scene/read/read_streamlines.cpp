@@ -1,0 +1,48 @@
+#include <core/scene/read/read_parts.hpp>
+
+namespace elvis {
+
+namespace {
+
+SceneStreamlines::Direction direction_of(const JsonObject& object) {
+    const std::string word = object.word("direction");
+    return word == "forward"    ? SceneStreamlines::Direction::forward
+           : word == "backward" ? SceneStreamlines::Direction::backward
+                                : SceneStreamlines::Direction::both;
+}
+
+} // namespace
+
+SceneStreamlines read_streamlines(const JsonObject& object) {
+    SceneStreamlines lines;
+    if (!object.has("flow")) {
+        object.fail("flow", "is missing, which streamlines need: a vector field");
+    }
+    lines.flow = object.text("flow");
+    if (object.has("seeds")) {
+        if (object.has("seed_grid")) {
+            object.fail("seed_grid", "and 'seeds' say both where lines begin; give one of the two");
+        }
+        for (const std::vector<double>& seed : object.rows("seeds")) {
+            lines.seeds.push_back(fixed<3>(seed));
+        }
+    }
+    if (object.has("seed_grid")) {
+        lines.seed_grid = object.integer("seed_grid");
+    }
+    if (object.has("direction")) {
+        lines.direction = direction_of(object);
+    }
+    if (object.has("length")) {
+        lines.length = object.number("length");
+    }
+    if (object.has("tolerance")) {
+        lines.tolerance = object.number("tolerance");
+    }
+    if (object.has("radius")) {
+        lines.radius = object.number("radius");
+    }
+    return lines;
+}
+
+} // namespace elvis

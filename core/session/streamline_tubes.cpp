@@ -1,0 +1,118 @@
+#include <core/session/streamline_tubes.hpp>
+
+#include <core/base/bounds.hpp>
+#include <core/base/counted.hpp>
+#include <core/base/log.hpp>
+#include <core/streamline/trace.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+namespace {
+
+/** More than are in one picture. */
+constexpr std::size_t most_known = 32;
+/** Of the diagonal. */
+constexpr double default_radius = 0.003;
+
+/** In the middle of boxes that divide the bounds, about as long in each direction. */
+std::vector<Vector3> grid_seeds(const std::array<double, 6>& bounds, std::uint32_t n_longest) {
+    const Vector3 sides{bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]};
+    const double cell = std::max({sides[0], sides[1], sides[2]}) / n_longest;
+    std::array<int, 3> n{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        n[axis] = std::max(1, static_cast<int>(std::lround(sides[axis] / cell)));
+    }
+    std::vector<Vector3> seeds;
+    for (int k = 0; k < n[2]; ++k) {
+        for (int j = 0; j < n[1]; ++j) {
+            for (int i = 0; i < n[0]; ++i) {
+                seeds.push_back({bounds[0] + sides[0] * (i + 0.5) / n[0], bounds[1] + sides[1] * (j + 0.5) / n[1],
+                                 bounds[2] + sides[2] * (k + 0.5) / n[2]});
+            }
+        }
+    }
+    return seeds;
+}
+
+std::string key_of(const SceneStreamlines& lines, std::uint32_t time_step) {
+    std::string key = lines.flow + '\n' + std::to_string(time_step) + ' ' + std::to_string(lines.seed_grid) + ' ' +
+                      std::to_string(static_cast<int>(lines.direction));
+    const auto add = [&key](double number) {
+        key += ' ';
+        key.append(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    add(lines.length.value_or(0));
+    add(lines.tolerance);
+    add(lines.radius.value_or(0));
+    for (const Vector3& seed : lines.seeds) {
+        std::ranges::for_each(seed, add);
+    }
+    return key;
+}
+
+void say_ends(const std::string& flow, const std::vector<Streamline>& lines) {
+    std::size_t n_outside = 0, n_jumps = 0, n_cut_short = 0;
+    for (const Streamline& line : lines) {
+        n_outside += line.begin == TraceEnd::no_element ? 1 : 0;
+        for (const TraceEnd end : {line.begin, line.end}) {
+            n_jumps += end == TraceEnd::jump ? 1 : 0;
+            n_cut_short += end == TraceEnd::steps ? 1 : 0;
+        }
+    }
+    const LogLevel level = n_jumps + n_cut_short > 0 ? LogLevel::warning : LogLevel::info;
+    log_line(level, "streamlines of {}: {}, {} of them with seeds outside of the volume; {} between elements where the field jumps back, {} by the number of steps",
+             flow, counted(lines.size(), "line"), n_outside, counted(n_jumps, "end"), counted(n_cut_short, "end"));
+}
+
+std::shared_ptr<const TubeSet> tubes_of(const SceneStreamlines& wanted, const RuntimeVolume& volume, std::uint32_t time_step,
+                                        const std::array<double, 6>& bounds, const TaskControl& control) {
+    need_evaluation(volume);
+    const Flow flow(volume, wanted.flow, time_step);
+    TraceOptions options;
+    options.direction = static_cast<TraceDirection>(wanted.direction);
+    options.tolerance = wanted.tolerance;
+    options.most_length = wanted.length.value_or(0);
+    const std::vector<Streamline> lines =
+        trace(flow, wanted.seeds.empty() ? grid_seeds(bounds, wanted.seed_grid) : wanted.seeds, options, control);
+    say_ends(wanted.flow, lines);
+    auto tubes = std::make_shared<TubeSet>();
+    tubes->radius = wanted.radius.value_or(default_radius * diagonal_of(bounds));
+    for (const Streamline& line : lines) {
+        std::vector<Vector3> points;
+        for (const TracePoint& point : line.points) {
+            if (points.empty() || points.back() != point.position) {
+                points.push_back(point.position);
+            }
+        }
+        tubes->add(points);
+    }
+    return tubes;
+}
+
+} // namespace
+
+void StreamlineTubes::provide(Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                              const TaskControl& control) {
+    for (SceneSurface& surface : scene.surfaces) {
+        if (!surface.streamlines || !surface.is_shown) {
+            continue;
+        }
+        const std::string key = key_of(*surface.streamlines, scene.time_step);
+        auto known = m_known.find(key);
+        if (known == m_known.end()) {
+            if (m_known.size() >= most_known) {
+                m_known.clear();
+            }
+            known = m_known.emplace(key, tubes_of(*surface.streamlines, volume, scene.time_step, bounds, control)).first;
+        }
+        surface.geometry = TubeSurface{known->second};
+        surface.is_shown = !known->second->pieces.empty();
+    }
+}
+
+} // namespace elvis

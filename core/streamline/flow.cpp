@@ -1,0 +1,102 @@
+#include <core/streamline/flow.hpp>
+
+#include <core/base/error.hpp>
+#include <core/expression/evaluate.hpp>
+#include <core/expression/volume_point.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/probe/newton.hpp>
+
+#include <algorithm>
+#include <vector>
+
+namespace elvis {
+
+namespace {
+
+/** A field of that name with components for a velocity. */
+std::optional<std::uint32_t> plain_vector(const RuntimeVolume& volume, const std::string& name) {
+    for (std::uint32_t index = 0; index < volume.fields().size(); ++index) {
+        const FieldInfo& field = volume.fields()[index];
+        if (field.name == name && (field.n_components == 3 || (field.n_components == 2 && volume.dimension() == 2))) {
+            return index;
+        }
+    }
+    return std::nullopt;
+}
+
+Vector3 product(const std::array<double, 9>& m, const Vector3& v) {
+    return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
+            m[6] * v[0] + m[7] * v[1] + m[8] * v[2]};
+}
+
+} // namespace
+
+void need_evaluation(const RuntimeVolume& volume) {
+    if (!volume.has_evaluation() || volume.is_cut()) {
+        throw Error(volume.path(), "the plugin " + volume.plugin().id() +
+                                       " does not evaluate whole elements on the CPU, along which streamlines are followed");
+    }
+}
+
+Flow::Flow(const RuntimeVolume& volume, const std::string& field, std::uint32_t time_step)
+    : m_volume(&volume), m_time_step(time_step), m_field(plain_vector(volume, field)) {
+    if (m_field) {
+        return;
+    }
+    const auto component = [&](const char* index) {
+        return std::make_shared<const Expression>("(" + field + ")" + index, volume.fields(), volume.dimension());
+    };
+    m_components = {component("[0]"), component("[1]"), nullptr};
+    try {
+        m_components[2] = component("[2]");
+    } catch (const Error&) {
+        if (volume.dimension() == 3) {
+            throw;
+        }
+        m_components[2] = std::make_shared<const Expression>("0", volume.fields(), volume.dimension());
+    }
+}
+
+Flow Flow::reversed() const {
+    Flow other = *this;
+    other.m_sign = -m_sign;
+    return other;
+}
+
+elvis_shape Flow::shape_of(std::uint64_t element) const {
+    const auto& classes = m_volume->classes();
+    const auto after = std::upper_bound(classes.begin(), classes.end(), element,
+                                        [](std::uint64_t e, const ClassInfo& c) { return e < c.first_element; });
+    return std::prev(after)->shape;
+}
+
+bool Flow::is_one_at_a_time() const {
+    return !m_field && std::ranges::any_of(m_components, [](const auto& part) { return part->needs_element_facts(); });
+}
+
+Vector3 Flow::velocity(const ReferencePoint& point) const {
+    Vector3 velocity{};
+    if (m_field) {
+        const std::size_t n_components = m_volume->fields()[*m_field].n_components;
+        m_volume->evaluate_field(*m_field, m_time_step, point.element, point.xi, std::span(velocity).first(n_components), {});
+    } else {
+        VolumePoint here(*m_volume, point.element, point.xi, m_time_step);
+        for (std::size_t i = 0; i < 3; ++i) {
+            velocity[i] = evaluate(*m_components[i], here);
+        }
+    }
+    return scaled(velocity, m_sign);
+}
+
+FlowSample Flow::at(const ReferencePoint& point) const {
+    FlowSample sample;
+    m_volume->evaluate_mapping(point.element, point.xi, sample.position, sample.jacobian);
+    sample.velocity = velocity(point);
+    sample.slope = product(invert_matrix(sample.jacobian), sample.velocity);
+    if (m_volume->dimension() == 2) {
+        sample.slope[2] = 0;
+    }
+    return sample;
+}
+
+} // namespace elvis

@@ -1,0 +1,59 @@
+/**
+ * @file trace.hpp
+ * Streamlines: curves that are everywhere tangent to a vector field.
+ *
+ * A line is integrated in the reference coordinates of the element that it is in, where field and mapping are smooth. Where it
+ * leaves the element, the step is shortened until it ends on the face; the elements that hold this point are asked by Newton's
+ * method, and the line goes on in the one that the field leads into. A field that jumps may lead back from both sides of a
+ * face: the line ends there, and says so.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+#include <core/streamline/flow.hpp>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+enum class TraceDirection : std::uint32_t { both, forward, backward };
+
+enum class TraceEnd : std::uint32_t {
+    left_volume, ///< no element goes on
+    stagnation,  ///< the field is zero, but for rounding
+    length,      ///< as long as was wanted
+    steps,       ///< as many steps as were allowed
+    jump,        ///< the field leads back from the other side of a face, too
+    no_element   ///< the seed lies in no element: there is no line
+};
+
+struct TraceOptions {
+    TraceDirection direction = TraceDirection::both;
+    /** Of a step's error, as a share of the diagonal of the volume's bounds. */
+    double tolerance = 1e-9;
+    /** In each direction, in the world. */
+    double most_length = 0;
+    std::uint32_t most_steps = 100000;
+};
+
+struct TracePoint {
+    ReferencePoint at;
+    Vector3 position{};
+    /** From the seed on; negative upstream. */
+    double time = 0, arc_length = 0;
+};
+
+/** Points in the order of time, near enough to each other that the direction turns by a few degrees between two. */
+struct Streamline {
+    std::vector<TracePoint> points;
+    /** Why it begins and ends where it does; with one direction only, the other is the seed (length). */
+    TraceEnd begin = TraceEnd::length, end = TraceEnd::length;
+};
+
+/** One line a seed, in the same order. Works on all processors. */
+std::vector<Streamline> trace(const Flow& flow, std::span<const Vector3> seeds, const TraceOptions& options,
+                              const TaskControl& control);
+
+} // namespace elvis
