@@ -1,0 +1,102 @@
+// Streamlines in pictures and as arrays.
+
+#include "some_volume.hpp"
+
+#include <elvis/answers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+using namespace elvis;
+using test::convert;
+using test::own_plugins;
+using test::TemporaryFolder;
+
+namespace {
+
+constexpr const char* box = R"({"generator": 1, "mesh": "box", "shape": "mixed", "elements": [4, 2, 2], "field": "sphere"})";
+
+scene with_surface(const context& library, const std::string& surface, const std::string& precision) {
+    scene shown = library.make_scene();
+    shown.set("/image/size", "[120, 90]");
+    shown.set("/precision", "\"" + precision + "\"");
+    shown.set("/camera", R"({"eye": [1.5, -4, 2], "look_at": [0, 0, 0], "up": [0, 0, 1], "field_of_view": 30})");
+    shown.set("/surfaces/-", surface);
+    return shown;
+}
+
+} // namespace
+
+TEST_CASE("The tube about a straight streamline is a cylinder") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(library, folder, box));
+    for (const auto& [precision, tolerance] : {std::pair{"float32", 2e-5}, std::pair{"float64", 1e-11}}) {
+        const picture tube = volume.render(with_surface(
+            library, R"({"type": "streamlines", "flow": "grad(x)", "seeds": [[0.1, 0.05, 0.1]], "radius": 0.1})", precision));
+        const picture pipe = volume.render(with_surface(
+            library, R"({"type": "cylinder", "from": [-1, 0.05, 0.1], "to": [1, 0.05, 0.1], "radius": 0.1, "capped": false})",
+            precision));
+        const std::vector<double> of_tube = tube.read<double>(ELVIS_CHANNEL_DEPTH), of_pipe = pipe.read<double>(ELVIS_CHANNEL_DEPTH);
+        std::size_t n_both = 0, n_one = 0;
+        double largest = 0;
+        for (std::size_t pixel = 0; pixel < of_tube.size(); ++pixel) {
+            const bool has_tube = std::isfinite(of_tube[pixel]), has_pipe = std::isfinite(of_pipe[pixel]);
+            n_both += has_tube && has_pipe ? 1 : 0;
+            n_one += has_tube != has_pipe ? 1 : 0;
+            largest = has_tube && has_pipe ? std::max(largest, std::abs(of_tube[pixel] - of_pipe[pixel])) : largest;
+        }
+        std::cout << precision << ": " << n_both << " pixels of both, " << n_one << " of one, depths differ by " << largest << '\n';
+        CHECK(n_both > 400);
+        // Balls close the tube at the ends, where the cylinder is open and shows its inside.
+        CHECK(n_one < 20);
+        CHECK(largest < tolerance + 0.25 * static_cast<double>(n_one));
+        CHECK(tube.info().n_undecided_pixels < 10);
+    }
+}
+
+TEST_CASE("Streamlines from a grid are drawn, and colours of another field are on them") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(library, folder, box));
+    scene shown = with_surface(library, R"({"type": "streamlines", "flow": "x*grad(y) - y*grad(x)", "seed_grid": 3,
+                                             "radius": 0.03, "length": 5, "field": "sphere"})",
+                               "float32");
+    const picture drawn = volume.render(shown);
+    CHECK(drawn.info().n_hit_pixels > 500);
+    // The same lines, from what was kept.
+    CHECK(volume.render(shown).read<double>(ELVIS_CHANNEL_COLOR) == drawn.read<double>(ELVIS_CHANNEL_COLOR));
+    CHECK_THROWS_WITH(volume.render(with_surface(library, R"({"type": "streamlines", "flow": "sphere"})", "float32")),
+                      Catch::Contains("sphere"));
+    CHECK_THROWS_WITH(with_surface(library, R"({"type": "streamlines"})", "float32"), Catch::Contains("flow"));
+    // None of them has a line.
+    scene none = with_surface(library, R"({"type": "streamlines", "flow": "grad(x)", "seeds": [[5, 5, 5]]})", "float32");
+    CHECK(volume.render(none).info().n_hit_pixels == 0);
+}
+
+TEST_CASE("Streamlines come as arrays, with values at their points") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(library, folder, box));
+    const std::vector<double> seeds{0.1, 0.2, 0.3, 7, 0, 0, -0.4, 0.5, 0.6};
+    const elvis_string fields[] = {"sphere", "2 * x"};
+    auto wanted = detail::sized<elvis_tracing>();
+    wanted.field = "grad(x)";
+    wanted.seeds = seeds.data();
+    wanted.n_seeds = 3;
+    wanted.n_fields = 2;
+    wanted.fields = fields;
+    const traced lines = volume.trace(wanted);
+    REQUIRE(lines.first.size() == 4);
+    CHECK(lines.first[1] == lines.first[2]);
+    CHECK(lines.ends[1] == ELVIS_LINE_NO_ELEMENT);
+    CHECK(lines.ends[0] == ELVIS_LINE_LEFT_VOLUME);
+    for (std::size_t point = 0; point < lines.times.size(); ++point) {
+        const double *const x = &lines.positions[3 * point];
+        CHECK(lines.values[2 * point] == Approx(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).margin(1e-12));
+        CHECK(lines.values[2 * point + 1] == Approx(2 * x[0]).margin(1e-12));
+    }
+    wanted.direction = 3;
+    CHECK_THROWS_WITH(volume.trace(wanted), Catch::Contains("direction"));
+}
