@@ -40,7 +40,7 @@ struct Owner {
 } // namespace
 
 Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options)
-    : m_volume(&volume), m_evaluator(make_evaluator(volume, options)), m_boxes(volume) {
+    : m_volume(&volume), m_evaluator(make_evaluator(volume, options)), m_finder(volume) {
     m_numbers.resize(volume.n_elements());
     volume.element_numbers(0, volume.n_elements(), m_numbers);
 }
@@ -58,7 +58,7 @@ std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::
         if (!std::ranges::all_of(positions[i], [](double x) { return std::isfinite(x); }))
             continue;
         elements.clear();
-        m_boxes.append_near(positions[i], elements);
+        m_finder.append_near(positions[i], elements);
         for (const std::uint32_t element : elements) {
             queries.push_back({element, positions[i]});
             query_point.push_back(i);

@@ -6,7 +6,7 @@
 
 #include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
-#include <core/probe/element_boxes.hpp>
+#include <core/probe/element_finder.hpp>
 #include <core/probe/point_evaluator.hpp>
 
 #include <array>
@@ -68,7 +68,7 @@ public:
 private:
     const RuntimeVolume* m_volume;
     std::unique_ptr<PointEvaluator> m_evaluator;
-    ElementBoxes m_boxes;
+    ElementFinder m_finder;
     /** Of each element. */
     std::vector<std::int64_t> m_numbers;
 };

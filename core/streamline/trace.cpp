@@ -2,7 +2,7 @@
 
 #include <core/base/background.hpp>
 #include <core/base/in_parts.hpp>
-#include <core/probe/element_boxes.hpp>
+#include <core/probe/element_finder.hpp>
 #include <core/probe/plate.hpp>
 #include <core/probe/reference_shape.hpp>
 #include <core/streamline/dormand_prince.hpp>
@@ -32,9 +32,9 @@ double largest(const Vector3& v) { return std::max({std::abs(v[0]), std::abs(v[1
 /** Follows one line in one direction. */
 class Tracer {
 public:
-    Tracer(const Flow& flow, const ElementBoxes& boxes, const TraceOptions& options, const TaskControl& control)
-        : m_flow(flow), m_boxes(boxes), m_options(options), m_control(control),
-          m_tolerance(options.tolerance * boxes.diagonal()) {}
+    Tracer(const Flow& flow, const ElementFinder& finder, const TraceOptions& options, const TaskControl& control)
+        : m_flow(flow), m_finder(finder), m_options(options), m_control(control),
+          m_tolerance(options.tolerance * finder.diagonal()) {}
 
     /** Without the first point. */
     TraceEnd follow(FlowState state, std::vector<TracePoint>& points);
@@ -48,7 +48,7 @@ private:
     void keep(const FlowState& from, const FlowState& to, std::vector<TracePoint>& points) const;
 
     const Flow& m_flow;
-    const ElementBoxes& m_boxes;
+    const ElementFinder& m_finder;
     const TraceOptions& m_options;
     const TaskControl& m_control;
     double m_tolerance;
@@ -97,7 +97,7 @@ bool Tracer::leads_inside(const FlowState& state) const {
 /** From a point on a face into the element that the field leads into; or why there is none. */
 std::optional<TraceEnd> Tracer::enter_next(FlowState& state) const {
     bool has_other = false;
-    for (const ReferencePoint& there : m_boxes.holders(m_flow.volume(), state.sample.position)) {
+    for (const ReferencePoint& there : m_finder.holders(m_flow.volume(), state.sample.position)) {
         has_other = has_other || there.element != state.at.element;
         FlowState next = state;
         next.at = {there.element, there.xi};
@@ -143,14 +143,14 @@ TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
         step = step > 0 ? std::min(step, longest_step / largest(state.sample.slope)) : first_step(state);
         FlowStep next = dormand_prince(m_flow, state, step);
         const double ratio = next.error / m_tolerance;
-        if (!(ratio <= 1) && step * speed > 1e-14 * m_boxes.diagonal()) {
+        if (!(ratio <= 1) && step * speed > 1e-14 * m_finder.diagonal()) {
             step *= ratio > 0 ? std::max(0.2, 0.9 * std::pow(ratio, -0.2)) : 0.2;
             continue;
         }
         const bool is_too_long = next.end.arc_length > m_options.most_length;
         if (is_too_long) {
             next = end_where(state, step,
-                             [&](const FlowState& at) { return (at.arc_length - m_options.most_length) / m_boxes.diagonal(); });
+                             [&](const FlowState& at) { return (at.arc_length - m_options.most_length) / m_finder.diagonal(); });
         }
         const bool leaves = excess(next.end) > outside;
         if (leaves) {
@@ -183,10 +183,10 @@ std::vector<TracePoint> turned_round(std::vector<TracePoint> points) {
     return points;
 }
 
-Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed, const ElementBoxes& boxes,
+Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed, const ElementFinder& finder,
                      const TraceOptions& options, const TaskControl& control) {
     Streamline line;
-    const std::vector<ReferencePoint> holders = boxes.holders(flow.volume(), seed);
+    const std::vector<ReferencePoint> holders = finder.holders(flow.volume(), seed);
     if (holders.empty()) {
         line.begin = line.end = TraceEnd::no_element;
         return line;
@@ -194,7 +194,7 @@ Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed
     // On a face each direction begins where it leads into.
     const auto follow = [&](const Flow& along, std::vector<TracePoint>& points) {
         FlowState start{holders.front(), along.at(holders.front()), 0, 0};
-        Tracer tracer(along, boxes, options, control);
+        Tracer tracer(along, finder, options, control);
         for (const ReferencePoint& holder : holders) {
             const FlowState other{holder, along.at(holder), 0, 0};
             const double speed = largest(other.sample.slope);
@@ -223,10 +223,10 @@ Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed
 
 std::vector<Streamline> trace(const Flow& flow, std::span<const Vector3> seeds, const TraceOptions& options,
                               const TaskControl& control) {
-    const ElementBoxes boxes(flow.volume());
+    const ElementFinder finder(flow.volume());
     const Flow reversed = flow.reversed();
     TraceOptions own = options;
-    own.most_length = options.most_length > 0 ? options.most_length : 10 * boxes.diagonal();
+    own.most_length = options.most_length > 0 ? options.most_length : 10 * finder.diagonal();
     std::vector<Streamline> lines(seeds.size());
     Background background(std::max(1u, std::thread::hardware_concurrency()));
     const std::uint64_t part = flow.is_one_at_a_time() ? std::max<std::uint64_t>(1, seeds.size()) : 1;
@@ -239,7 +239,7 @@ std::vector<Streamline> trace(const Flow& flow, std::span<const Vector3> seeds, 
         background, seeds.size(), part,
         [&](std::uint64_t first, std::uint64_t count) {
             for (std::uint64_t i = first; i < first + count; ++i) {
-                lines[i] = line_from(seeds[i], flow, reversed, boxes, own, control);
+                lines[i] = line_from(seeds[i], flow, reversed, finder, own, control);
                 ++n_done;
             }
         },

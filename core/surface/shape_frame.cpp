@@ -108,6 +108,7 @@ struct FormOf {
     Form operator()(const ImplicitSurface&) const { return {}; }
     Form operator()(const MeshSurface&) const { return {}; }
     Form operator()(const BezierSurface&) const { return {}; }
+    Form operator()(const TubeSurface&) const { return {}; }
 };
 
 /** A point of the surface near the reference point, in local coordinates: Newton's method along gradients. */

@@ -34,7 +34,7 @@ TEST_CASE("The tube about a straight streamline is a cylinder") {
     const data volume = library.open(convert(library, folder, box));
     for (const auto& [precision, tolerance] : {std::pair{"float32", 2e-5}, std::pair{"float64", 1e-11}}) {
         const picture tube = volume.render(with_surface(
-            library, R"({"type": "streamlines", "flow": "grad(x)", "seeds": [[0.1, 0.05, 0.1]], "radius": 0.1})", precision));
+            library, R"s({"type": "streamlines", "flow": "grad(x)", "seeds": [[0.1, 0.05, 0.1]], "radius": 0.1})s", precision));
         const picture pipe = volume.render(with_surface(
             library, R"({"type": "cylinder", "from": [-1, 0.05, 0.1], "to": [1, 0.05, 0.1], "radius": 0.1, "capped": false})",
             precision));
@@ -60,8 +60,8 @@ TEST_CASE("Streamlines from a grid are drawn, and colours of another field are o
     const context library(own_plugins());
     const TemporaryFolder folder;
     const data volume = library.open(convert(library, folder, box));
-    scene shown = with_surface(library, R"({"type": "streamlines", "flow": "x*grad(y) - y*grad(x)", "seed_grid": 3,
-                                             "radius": 0.03, "length": 5, "field": "sphere"})",
+    scene shown = with_surface(library, R"s({"type": "streamlines", "flow": "x*grad(y) - y*grad(x)", "seed_grid": 3,
+                                              "radius": 0.03, "length": 5, "field": "sphere"})s",
                                "float32");
     const picture drawn = volume.render(shown);
     CHECK(drawn.info().n_hit_pixels > 500);
@@ -71,7 +71,7 @@ TEST_CASE("Streamlines from a grid are drawn, and colours of another field are o
                       Catch::Contains("sphere"));
     CHECK_THROWS_WITH(with_surface(library, R"({"type": "streamlines"})", "float32"), Catch::Contains("flow"));
     // None of them has a line.
-    scene none = with_surface(library, R"({"type": "streamlines", "flow": "grad(x)", "seeds": [[5, 5, 5]]})", "float32");
+    scene none = with_surface(library, R"s({"type": "streamlines", "flow": "grad(x)", "seeds": [[5, 5, 5]]})s", "float32");
     CHECK(volume.render(none).info().n_hit_pixels == 0);
 }
 

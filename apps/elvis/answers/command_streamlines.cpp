@@ -8,6 +8,7 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
+#include <core/base/vector3.hpp>
 
 #include <array>
 #include <cstdio>

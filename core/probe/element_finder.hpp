@@ -1,6 +1,6 @@
 /**
- * @file element_boxes.hpp
- * Which elements may hold a point, by their boxes.
+ * @file element_finder.hpp
+ * Which elements hold a point.
  */
 #pragma once
 
@@ -15,9 +15,9 @@
 namespace elvis {
 
 /** Any number of threads may ask. */
-class ElementBoxes {
+class ElementFinder {
 public:
-    explicit ElementBoxes(const RuntimeVolume& volume);
+    explicit ElementFinder(const RuntimeVolume& volume);
 
     /** Appends the elements whose boxes come near the point, in no particular order. */
     void append_near(const Vector3& position, std::vector<std::uint32_t>& elements) const {

@@ -1,4 +1,4 @@
-#include <core/probe/element_boxes.hpp>
+#include <core/probe/element_finder.hpp>
 
 #include <core/probe/plate.hpp>
 
@@ -7,7 +7,7 @@
 
 namespace elvis {
 
-ElementBoxes::ElementBoxes(const RuntimeVolume& volume) {
+ElementFinder::ElementFinder(const RuntimeVolume& volume) {
     std::vector<double> boxes(6 * volume.n_elements());
     volume.bounds(0, volume.n_elements(), boxes);
     Vector3 lower{}, upper{};
@@ -28,7 +28,7 @@ ElementBoxes::ElementBoxes(const RuntimeVolume& volume) {
     m_hierarchy = Hierarchy(boxes, scaled(plus(lower, upper), 0.5));
 }
 
-std::vector<ReferencePoint> ElementBoxes::holders(const RuntimeVolume& volume, const Vector3& position) const {
+std::vector<ReferencePoint> ElementFinder::holders(const RuntimeVolume& volume, const Vector3& position) const {
     std::vector<std::uint32_t> elements;
     append_near(position, elements);
     std::ranges::sort(elements);
