@@ -176,9 +176,9 @@ std::vector<double> wedge_nodes(std::uint32_t order) {
 std::vector<double> triangle_nodes(std::uint32_t order) {
     const Vector3 a{-1, -1, 0}, b{1, -1, 0}, c{-1, 1, 0};
     NodeList nodes(order);
-    nodes.add(a);
-    nodes.add(b);
-    nodes.add(c);
+    for (const Vector3& corner : {a, b, c}) {
+        nodes.add(corner);
+    }
     nodes.add_edge(a, b);
     nodes.add_edge(b, c);
     nodes.add_edge(c, a);

@@ -74,6 +74,7 @@ struct HandlesOf {
     Handles operator()(const ImplicitSurface&) const { return {}; }
     Handles operator()(const MeshSurface&) const { return {}; }
     Handles operator()(const BezierSurface&) const { return {}; }
+    Handles operator()(const TubeSurface&) const { return {}; }
     Handles operator()(const FaceGeometry&) const { return {}; }
     Handles operator()(const WireFrame&) const { return {}; }
     Handles operator()(const Isosurfaces&) const { return {}; }
@@ -117,6 +118,7 @@ struct MovedHandle {
     void operator()(const ImplicitSurface&) const {}
     void operator()(const MeshSurface&) const {}
     void operator()(const BezierSurface&) const {}
+    void operator()(const TubeSurface&) const {}
     void operator()(const FaceGeometry&) const {}
     void operator()(const WireFrame&) const {}
     void operator()(const Isosurfaces&) const {}
