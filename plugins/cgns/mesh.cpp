@@ -25,6 +25,10 @@ std::vector<std::uint32_t> face_corners(std::span<const std::uint32_t> nodes, To
 
 std::size_t n_faces(Topology topology) { return static_cast<std::size_t>(elvis::native::n_faces(shape(topology))); }
 
+std::uint32_t dimension_of(std::int64_t type) {
+    return static_cast<std::uint32_t>(dimension(element_type(type).topology));
+}
+
 constexpr std::int64_t quad_4_number = 7, hexa_8_number = 17;
 
 /** Cells of a structured zone, the first index the fastest; corners counted from 0. */
@@ -139,9 +143,9 @@ public:
         for (const Section& section : read_sections(m_tree, m_zone)) {
             BoundarySection boundary{section.node.name, section.first, {}};
             bool has_faces = false;
+            const bool is_all_cells = section.type != mixed_number && dimension_of(section.type) == m_base.dimension;
             read_elements(m_tree, m_zone, section, [&](std::int64_t type, std::span<const std::uint32_t> nodes) {
-                const Topology topology = element_type(type).topology;
-                const auto dimension = static_cast<std::uint32_t>(elvis_cgns::dimension(topology));
+                const std::uint32_t dimension = dimension_of(type);
                 if (dimension > m_base.dimension) {
                     section.node.fail("holds " + type_name(type) + " in a base of " + std::to_string(m_base.dimension) +
                                       " dimensions");
@@ -149,11 +153,14 @@ public:
                 n_cells += dimension == m_base.dimension ? 1 : 0;
                 if (dimension == m_base.dimension) {
                     take(type, nodes);
+                    if (is_all_cells) {
+                        return;
+                    }
                 }
                 // An element that is no face keeps the place of its number.
                 const bool is_face = dimension + 1 == m_base.dimension;
                 has_faces = has_faces || is_face;
-                boundary.faces.push_back(face_key(nodes.first(is_face ? n_corners(topology) : 0)));
+                boundary.faces.push_back(face_key(nodes.first(is_face ? n_corners(element_type(type).topology) : 0)));
             });
             if (has_faces) {
                 boundaries.push_back(std::move(boundary));
@@ -219,7 +226,6 @@ void Mesh::read_points(Tree& tree, const Base& base, const Zone& zone, const std
         zone.node.fail("has no " + name);
     }
     const std::size_t first = m_points.size();
-    m_points.resize(first + 3 * zone.n_all_vertices());
     constexpr std::array names{"CoordinateX", "CoordinateY", "CoordinateZ"};
     for (std::size_t axis = 0; axis < base.n_coordinates; ++axis) {
         const auto array = tree.named(*grid, names[axis]);
@@ -228,6 +234,8 @@ void Mesh::read_points(Tree& tree, const Base& base, const Zone& zone, const std
         }
         m_mantissa_bits = std::min(m_mantissa_bits, elvis_cgns::mantissa_bits(*array));
         const std::vector<double> values = read_array(tree, *grid, *array, zone, zone.n_vertices);
+        // Only now is it known that the zone is as large as it says.
+        m_points.resize(first + 3 * values.size());
         for (std::size_t vertex = 0; vertex < values.size(); ++vertex) {
             if (!std::isfinite(values[vertex])) {
                 array->fail("is not finite at vertex " + std::to_string(vertex + 1));

@@ -89,12 +89,12 @@ void read_elements(Tree& tree, const Zone& zone, const Section& section, const T
     }
     Stream stream(*connectivity);
     std::vector<std::uint32_t> nodes;
-    std::int64_t last_number = -1;
+    std::int64_t previous = -1;
     for (std::uint64_t element = section.first; element <= section.last; ++element) {
         const std::int64_t number = section.type == mixed_number ? stream.next() : section.type;
-        if (number != last_number) {
+        if (number != previous) {
             nodes.resize(n_nodes(type_of(section.node, number)));
-            last_number = number;
+            previous = number;
         }
         for (std::uint32_t& node : nodes) {
             const std::int64_t vertex = stream.next();
