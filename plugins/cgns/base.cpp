@@ -11,7 +11,8 @@ constexpr std::uint64_t most_vertices = (std::uint64_t{1} << 32) - 2;
 
 Base describe(const Node& node) {
     const std::vector<std::int64_t> dimensions = integers(node);
-    if (dimensions.size() != 2 || dimensions[0] < 1 || dimensions[0] > 3 || dimensions[1] < dimensions[0] || dimensions[1] > 3) {
+    if (dimensions.size() != 2 || dimensions[0] < 1 || dimensions[0] > 3 || dimensions[1] < dimensions[0] ||
+        dimensions[1] > 3) {
         node.fail("does not say how many dimensions its cells and its space have");
     }
     return {node, static_cast<std::uint32_t>(dimensions[0]), static_cast<std::uint32_t>(dimensions[1]), {}};

@@ -31,9 +31,7 @@ public:
 
     bool is_given() const { return m_points.has_value(); }
     bool is_at_vertices() const { return !m_is_of_elements && m_location == "Vertex"; }
-    bool is_of_faces() const {
-        return m_is_of_elements || m_location.ends_with("FaceCenter") || m_location == "EdgeCenter";
-    }
+    bool is_of_faces() const { return m_is_of_elements || m_location.ends_with("FaceCenter") || m_location == "EdgeCenter"; }
     const std::string& location() const { return m_location; }
     const Node& node() const { return *m_points; }
 
@@ -115,9 +113,8 @@ void add_vertices(const Zone& zone, const Patch& patch, BoundaryGroup& group) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         most[axis] = static_cast<std::int64_t>(zone.n_vertices[axis]);
     }
-    patch.for_each(most, [&](const Index& index) {
-        group.vertices.push_back(static_cast<std::uint32_t>(vertex_of(zone, index)));
-    });
+    patch.for_each(most,
+                   [&](const Index& index) { group.vertices.push_back(static_cast<std::uint32_t>(vertex_of(zone, index))); });
 }
 
 /** Faces of cells: across one index they are counted as vertices are, along the others as cells. */
@@ -181,8 +178,8 @@ std::size_t FaceKeyHash::operator()(const FaceKey& key) const {
     return hash;
 }
 
-std::vector<BoundaryGroup> read_boundary(Tree& tree, const Zone& zone,
-                                         const std::vector<BoundarySection>& sections, const elvis::api::Host& host) {
+std::vector<BoundaryGroup> read_boundary(Tree& tree, const Zone& zone, const std::vector<BoundarySection>& sections,
+                                         const elvis::api::Host& host) {
     std::vector<BoundaryGroup> groups;
     std::vector<bool> is_named(sections.size());
     for (const Node& all : tree.children(zone.node, "ZoneBC_t")) {
@@ -195,8 +192,8 @@ std::vector<BoundaryGroup> read_boundary(Tree& tree, const Zone& zone,
             if (patch.is_at_vertices()) {
                 add_vertices(zone, patch, group);
             } else if (!patch.is_of_faces()) {
-                host.log(ELVIS_LOG_WARNING, tree.path() + ": " + condition.path + " is left out: it lies at " + patch.location() +
-                                                ", not at faces or vertices");
+                host.log(ELVIS_LOG_WARNING, tree.path() + ": " + condition.path + " is left out: it lies at " +
+                                                patch.location() + ", not at faces or vertices");
                 continue;
             } else if (zone.is_structured) {
                 add_structured_faces(zone, patch, group);

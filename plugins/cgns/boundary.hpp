@@ -36,7 +36,7 @@ struct BoundaryGroup {
 };
 
 /** Boundary conditions of a zone, and sections of which no boundary condition names an element. */
-std::vector<BoundaryGroup> read_boundary(Tree& tree, const Zone& zone,
-                                         const std::vector<BoundarySection>& sections, const elvis::api::Host& host);
+std::vector<BoundaryGroup> read_boundary(Tree& tree, const Zone& zone, const std::vector<BoundarySection>& sections,
+                                         const elvis::api::Host& host);
 
 } // namespace elvis_cgns

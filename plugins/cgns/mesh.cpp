@@ -25,9 +25,7 @@ std::vector<std::uint32_t> face_corners(std::span<const std::uint32_t> nodes, To
 
 std::size_t n_faces(Topology topology) { return static_cast<std::size_t>(elvis::native::n_faces(shape(topology))); }
 
-std::uint32_t dimension_of(std::int64_t type) {
-    return static_cast<std::uint32_t>(dimension(element_type(type).topology));
-}
+std::uint32_t dimension_of(std::int64_t type) { return static_cast<std::uint32_t>(dimension(element_type(type).topology)); }
 
 constexpr std::int64_t quad_4_number = 7, hexa_8_number = 17;
 
@@ -212,9 +210,8 @@ Mesh::Mesh(Tree& tree, const Base& base, const std::string& coordinates, const e
             }
         }
         if (!face_groups.is_empty()) {
-            find_faces(*this, first_element, first_vertex, face_groups, [&](std::uint64_t face, std::size_t group) {
-                m_face_groups.emplace(face, in_all[group]);
-            });
+            find_faces(*this, first_element, first_vertex, face_groups,
+                       [&](std::uint64_t face, std::size_t group) { m_face_groups.emplace(face, in_all[group]); });
         }
     }
     m_has_shared_vertices = m_connectivity.size() > n_vertices();

@@ -148,5 +148,6 @@ constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 } // namespace
 
 ELVIS_PLUGIN(.id = "org.elvis.cgns", .name = "CGNS reader", .version = "1.0.0", .vendor = "ElVis",
-             .description = "Converts CGNS files (.cgns, HDF5 and ADF): structured and unstructured zones, elements of order 1 to 4.",
+             .description =
+                 "Converts CGNS files (.cgns, HDF5 and ADF): structured and unstructured zones, elements of order 1 to 4.",
              .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);

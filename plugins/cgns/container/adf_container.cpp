@@ -41,7 +41,10 @@ std::string trimmed(std::string text) {
 }
 
 std::size_t size_of(const std::string& type) {
-    return type == "C1" ? 1 : type == "I4" || type == "U4" || type == "R4" ? 4 : type == "I8" || type == "U8" || type == "R8" ? 8 : 0;
+    return type == "C1"                                   ? 1
+           : type == "I4" || type == "U4" || type == "R4" ? 4
+           : type == "I8" || type == "U8" || type == "R8" ? 8
+                                                          : 0;
 }
 
 template <class Stored, class Number> void decode(const std::string& bytes, bool is_swapped, std::span<Number> values) {
@@ -60,7 +63,8 @@ template <class Stored, class Number> void decode(const std::string& bytes, bool
 bool AdfContainer::is_adf(const std::string& path) {
     std::array<char, version_at + version_text.size()> head{};
     std::ifstream file(path, std::ios::binary);
-    return file.read(head.data(), head.size()) && std::string_view(head.data() + version_at, version_text.size()) == version_text;
+    return file.read(head.data(), head.size()) &&
+           std::string_view(head.data() + version_at, version_text.size()) == version_text;
 }
 
 AdfContainer::File::File(const std::string& path) : m_descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
@@ -223,8 +227,7 @@ std::string AdfContainer::data(const Node& node, std::uint64_t first, std::uint6
     return all;
 }
 
-template <class Number>
-void AdfContainer::read_numbers(const Node& node, std::uint64_t first, std::span<Number> values) const {
+template <class Number> void AdfContainer::read_numbers(const Node& node, std::uint64_t first, std::span<Number> values) const {
     const std::uint64_t size = node.size();
     if (first > size || values.size() > size - first) {
         node.fail("has " + std::to_string(size) + " numbers where " + std::to_string(first + values.size()) + " are needed");

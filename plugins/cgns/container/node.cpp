@@ -2,7 +2,6 @@
 
 #include <elvis/plugin.hpp>
 
-
 namespace elvis_cgns {
 
 std::uint64_t Node::size() const {

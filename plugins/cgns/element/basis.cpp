@@ -26,7 +26,8 @@ std::array<std::uint32_t, 3> Basis::native_order() const {
 Matrix Basis::values(std::span<const double> xi) const {
     Matrix values(static_cast<Eigen::Index>(xi.size() / 3), m_to_coefficients.rows());
     for (Eigen::Index point = 0; point < values.rows(); ++point) {
-        const std::vector<double> row = functions(m_type, source_point(m_type.topology, &xi[3 * static_cast<std::size_t>(point)]));
+        const std::vector<double> row =
+            functions(m_type, source_point(m_type.topology, &xi[3 * static_cast<std::size_t>(point)]));
         values.row(point) = Eigen::Map<const Eigen::RowVectorXd>(row.data(), values.cols());
     }
     return values * m_to_coefficients;
