@@ -48,17 +48,17 @@ std::vector<std::string> read_names(Tree& tree, const Zone& zone, const std::str
 
 /** All zones have to be there at all times, with the same coordinates. */
 void check_mesh(Tree& tree, const Base& base, TimeSteps& steps) {
+    std::optional<std::string> first;
     for (const Zone& zone : base.zones) {
         for (const std::string& name : read_names(tree, zone, "GridCoordinatesPointers", steps.times.size())) {
-            if (&zone == &base.zones.front() && steps.coordinates == "GridCoordinates") {
-                steps.coordinates = name;
-            }
-            if (name != steps.coordinates) {
-                zone.node.fail("has other coordinates at other time steps (" + steps.coordinates + ", " + name +
+            if (name != first.value_or(name)) {
+                zone.node.fail("has other coordinates at other time steps (" + *first + ", " + name +
                                "): meshes that move are not read");
             }
+            first = name;
         }
     }
+    steps.coordinates = first.value_or(steps.coordinates);
     const auto data = tree.child(base.node, "BaseIterativeData_t");
     const auto zones = data ? tree.named(*data, "ZonePointers") : std::nullopt;
     if (zones) {
@@ -68,6 +68,15 @@ void check_mesh(Tree& tree, const Base& base, TimeSteps& steps) {
                 zones->fail("does not name the zone " + zone.node.name +
                             " once for each time step: meshes that change in time are not read");
             }
+        }
+    }
+}
+
+void check_solutions(Tree& tree, const Zone& zone, const std::vector<std::string>& names) {
+    const std::vector<Node> solutions = tree.children(zone.node, "FlowSolution_t");
+    for (std::size_t step = 0; step < names.size(); ++step) {
+        if (std::ranges::find(solutions, names[step], &Node::name) == solutions.end()) {
+            zone.node.fail("has no solution '" + names[step] + "', which time step " + std::to_string(step) + " is to have");
         }
     }
 }
@@ -85,6 +94,7 @@ TimeSteps read_time_steps(Tree& tree, const Base& base, const elvis::api::Host& 
     std::vector<std::vector<std::string>> by_zone;
     for (const Zone& zone : base.zones) {
         by_zone.push_back(read_names(tree, zone, "FlowSolutionPointers", times.size()));
+        check_solutions(tree, zone, by_zone.back());
     }
     if (std::ranges::any_of(by_zone, &std::vector<std::string>::empty)) {
         if (times.size() > 1) {

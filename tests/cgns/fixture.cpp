@@ -5,6 +5,7 @@
 #include <core/plugin_host/plugin.hpp>
 
 #include <cstdlib>
+#include <map>
 
 elvis::SourceVolume open_cgns(const std::vector<std::string>& paths) {
     static const auto plugin = elvis::Plugin::load(CGNS_PLUGIN);
@@ -50,18 +51,18 @@ Point random_point(elvis::native::Shape shape) {
     return xi;
 }
 
-std::vector<std::pair<std::string, int>> n_faces_by_group(const elvis::SourceVolume& source) {
-    std::vector<std::pair<std::string, int>> counts;
-    for (const std::string& name : source.boundary_groups()) {
-        counts.emplace_back(name, 0);
-    }
+std::string n_faces_by_group(const elvis::SourceVolume& source) {
+    std::map<std::string, int> counts;
     for (const elvis_source_element& element : all_elements(source)) {
         for (const std::int32_t group : element.face_groups) {
             if (group != ELVIS_GROUP_NONE) {
-                ++counts.at(static_cast<std::size_t>(group)).second;
+                ++counts[source.boundary_groups().at(static_cast<std::size_t>(group))];
             }
         }
     }
-    std::ranges::sort(counts);
-    return counts;
+    std::string all;
+    for (const auto& [name, count] : counts) {
+        all += (all.empty() ? "" : ", ") + name + " " + std::to_string(count);
+    }
+    return all;
 }

@@ -24,6 +24,8 @@ TEST_CASE("damaged files are refused or read", "[cgns][fuzz]") {
     CHECK(n_of[1] > 25);
 }
 
+constexpr std::size_t adf_block = 4096;
+
 TEST_CASE("files that are cut off are refused", "[cgns][fuzz]") {
     const std::string container = GENERATE("hdf5", "adf");
     const TemporaryFolder folder;
@@ -31,6 +33,9 @@ TEST_CASE("files that are cut off are refused", "[cgns][fuzz]") {
     for (std::size_t size = 0; size + 1 < good.size(); size += good.size() / 97) {
         INFO(container << " cut to " << size);
         const std::string path = folder.write("damaged.cgns", good.substr(0, size));
-        CHECK(outcome([&] { return open_cgns({path}); }, "damaged.") == Outcome::refused);
+        const Outcome result = outcome([&] { return open_cgns({path}); }, "damaged.");
+        // The last block of ADF files is filled with what nobody needs.
+        const bool has_all = container == "adf" && size > good.size() - adf_block;
+        CHECK((result == Outcome::refused || (has_all && result == Outcome::read)));
     }
 }

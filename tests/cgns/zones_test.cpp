@@ -8,8 +8,6 @@ using namespace elvis;
 
 namespace {
 
-using Counts = std::vector<std::pair<std::string, int>>;
-
 /** Largest difference of the fields Pressure and Velocity from their closed forms at a time. */
 double field_error(const SourceVolume& source, std::uint32_t step, double time) {
     double largest = 0;
@@ -48,7 +46,7 @@ TEST_CASE("structured zones, with their time steps and boundary conditions", "[c
     for (std::uint32_t step = 0; step < 3; ++step) {
         CHECK(field_error(source, step, 0.5 * step) < 1e-13);
     }
-    CHECK(n_faces_by_group(source) == Counts{{"Inflow", 3}, {"Outflow", 3}, {"Walls", 18}});
+    CHECK(n_faces_by_group(source) == "Inflow 3, Outflow 3, Walls 9");
     const ConvertReport report = convert(source, folder.path("volume.h5"), {}, {});
     // The zones have the three faces between them in common.
     CHECK(report.n_boundary_faces == 2 * (9 + 3 + 3));
@@ -73,7 +71,7 @@ TEST_CASE("boundary conditions name elements or vertices; sections that none nam
     const SourceVolume source = open_cgns({write_cgns(folder, "boundaries", container)});
     CHECK(source.info().n_elements == 2);
     CHECK(source.info().n_corner_ids == 12);
-    CHECK(n_faces_by_group(source) == Counts{{"Bottom", 2}, {"East", 1}, {"Walls", 2}, {"West", 1}});
+    CHECK(n_faces_by_group(source) == "Bottom 2, East 1, Walls 2, West 1");
     CHECK(field_error(source, 0, 0) < 1e-13);
     CHECK(source.fields()[0].continuity == ELVIS_CONTINUITY_CONTINUOUS);
 }
@@ -82,7 +80,7 @@ TEST_CASE("meshes in the plane, with edges on the boundary", "[cgns]") {
     const TemporaryFolder folder;
     const SourceVolume source = open_cgns({write_cgns(folder, "plane", GENERATE("hdf5", "adf"))});
     CHECK(source.info().dimension == 2);
-    CHECK(n_faces_by_group(source) == Counts{{"Low", 2}});
+    CHECK(n_faces_by_group(source) == "Low 2");
     for (std::uint64_t element = 0; element < 4; ++element) {
         CHECK(sample(source, element, {-0.5, -0.5, 0}) == std::vector{static_cast<double>(element) + 1});
     }

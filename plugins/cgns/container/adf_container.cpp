@@ -22,7 +22,7 @@ constexpr std::string_view version_text = "ADF Database Version ";
 constexpr std::size_t version_at = 4;
 
 // The file's head.
-constexpr std::uint64_t format_at = 0x64, root_at = 0x86;
+constexpr std::uint64_t format_at = 0x64, root_at = 0x86, end_at = root_at + pointer_digits;
 
 // A node: each field follows the one before.
 constexpr std::size_t name_at = 4, name_size = 32, label_at = name_at + name_size, n_children_at = label_at + name_size,
@@ -86,6 +86,11 @@ AdfContainer::AdfContainer(const std::string& path) : Container(path), m_file(pa
     }
     m_is_big_endian = format == 'B';
     m_root = pointer(bytes(root_at, pointer_digits), root_at);
+    // What follows only fills the last block.
+    const std::uint64_t end = pointer(bytes(end_at, pointer_digits), end_at);
+    if (end >= m_size) {
+        fail(m_size, "the file ends here; it says that it has " + std::to_string(end + 1) + " bytes: it is cut off");
+    }
 }
 
 void AdfContainer::fail(std::uint64_t address, const std::string& what) const {

@@ -8,7 +8,9 @@ namespace elvis_cgns {
 
 namespace {
 
-std::string data_of(const Node& node) { return node.path + "/ data"; }
+/** Names of objects in the file do not begin with '/'. */
+std::string object_of(const Node& node) { return node.path.empty() ? "/" : node.path.substr(1); }
+std::string data_of(const Node& node) { return object_of(node) + "/ data"; }
 
 /** Texts are short: names, and lists of names of time steps. */
 constexpr std::uint64_t most_characters = std::uint64_t{1} << 26;
@@ -86,7 +88,7 @@ Node HdfContainer::root() const {
 
 std::vector<Node> HdfContainer::children(const Node& parent) const {
     std::vector<Node> all;
-    for (const std::string& name : m_file.names(parent.path.empty() ? "/" : parent.path)) {
+    for (const std::string& name : m_file.names(object_of(parent))) {
         // What begins with a blank is of the container, not of the tree.
         if (name.empty() || name.front() == ' ') {
             continue;
@@ -94,8 +96,8 @@ std::vector<Node> HdfContainer::children(const Node& parent) const {
         Node node;
         node.name = name;
         node.path = parent.path + "/" + name;
-        node.label = attribute(node.path, "label");
-        node.type = attribute(node.path, "type");
+        node.label = attribute(object_of(node), "label");
+        node.type = attribute(object_of(node), "type");
         node.container = parent.container;
         if (node.type != "MT" && node.type != "LK" && m_file.has(data_of(node))) {
             const std::vector<std::uint64_t> shape = m_file.dataset(data_of(node)).shape();
@@ -111,7 +113,7 @@ Link HdfContainer::link(const Node& node) const {
         const std::string all = m_file.has(name) ? characters(name) : "";
         return all.substr(0, all.find('\0'));
     };
-    return {text(node.path + "/ file"), text(node.path + "/ path")};
+    return {text(object_of(node) + "/ file"), text(object_of(node) + "/ path")};
 }
 
 void HdfContainer::read(const Node& node, std::uint64_t first, std::span<double> values) const {
