@@ -56,6 +56,10 @@ public:
             if (!groups[group].vertices.empty()) {
                 std::vector<std::uint32_t> sorted = groups[group].vertices;
                 std::ranges::sort(sorted);
+                m_is_of_any.resize(std::max<std::size_t>(m_is_of_any.size(), std::size_t{sorted.back()} + 1));
+                for (const std::uint32_t vertex : sorted) {
+                    m_is_of_any[vertex] = true;
+                }
                 m_of_vertices.push_back({group, std::move(sorted)});
             }
         }
@@ -70,6 +74,10 @@ public:
     }
     /** Index of the first group that has all its corners. */
     const std::size_t* of_corners(const FaceKey& key) const {
+        // Most faces are inside.
+        if (key[0] >= m_is_of_any.size() || !m_is_of_any[key[0]]) {
+            return nullptr;
+        }
         for (const OfVertices& set : m_of_vertices) {
             const bool has_all = std::ranges::all_of(key, [&](std::uint32_t corner) {
                 return corner == no_corner || std::ranges::binary_search(set.vertices, corner);
@@ -88,6 +96,7 @@ private:
     };
     std::unordered_map<FaceKey, std::size_t, FaceKeyHash> m_of_face;
     std::vector<OfVertices> m_of_vertices;
+    std::vector<bool> m_is_of_any;
 };
 
 /** A face that a group has by its corners. */

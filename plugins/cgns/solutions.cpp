@@ -50,7 +50,10 @@ std::vector<Field> combine(const std::set<ArrayKey>& arrays, std::size_t n_compo
                 components.push_back(component.name);
             }
         }
-        const bool is_vector = components.size() == n_components && std::ranges::find(components, key.name) != components.end();
+        // What has the name of the vector itself stays apart from it.
+        const bool is_vector = components.size() == n_components &&
+                               std::ranges::find(components, key.name) != components.end() &&
+                               !arrays.contains({key.solution, key.is_of_cells, stem});
         const std::vector<std::string> all = is_vector ? components : std::vector{key.name};
         for (const std::string& name : all) {
             done.insert({key.solution, key.is_of_cells, name});

@@ -3,6 +3,7 @@
 #include "closed_forms.hpp"
 #include "node_tables.hpp"
 
+#include <cgns_io.h>
 #include <cgnslib.h>
 
 #include <cstring>
@@ -89,7 +90,10 @@ public:
         check(cg_boco_write(m_file, m_base, zone, name.c_str(),
                             family.empty() ? CGNS_ENUMV(BCWall) : CGNS_ENUMV(FamilySpecified), kind,
                             static_cast<cgsize_t>(points.size() / n_indices), points.data(), &condition));
-        check(cg_boco_gridlocation_write(m_file, m_base, zone, condition, location));
+        // For elements the library itself writes where they lie.
+        if (kind == CGNS_ENUMV(PointRange) || kind == CGNS_ENUMV(PointList)) {
+            check(cg_boco_gridlocation_write(m_file, m_base, zone, condition, location));
+        }
         if (!family.empty()) {
             check(cg_goto(m_file, m_base, "Zone_t", zone, "ZoneBC_t", 1, "BC_t", condition, "end"));
             check(cg_famname_write(family.c_str()));
@@ -294,6 +298,66 @@ void write_plane(const std::string& container, const std::string& path) {
     file.array(zone, solution, "Temperature", {1, 2, 3, 4});
 }
 
+/** A surface in space in a base of its own, and a box in single precision, whose lower and upper side ranges of elements name.
+ */
+void write_bases(const std::string& container, const std::string& path) {
+    File file(path, container, 3, 3);
+    const std::vector<Point> points = grid({2, 2, 2}, {0, 0, 0});
+    const int zone = file.unstructured_zone("Box", points.size(), 1);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::vector<float> values;
+        for (const Point& point : points) {
+            values.push_back(static_cast<float>(point[axis]));
+        }
+        int coordinate = 0;
+        const std::string name = std::string("Coordinate") + "XYZ"[axis];
+        check(cg_coord_write(file.id(), file.base(), zone, CGNS_ENUMV(RealSingle), name.c_str(), values.data(), &coordinate));
+    }
+    file.section(zone, "Cells", CGNS_ENUMV(HEXA_8), 3, 3, {1, 2, 4, 3, 5, 6, 8, 7});
+    file.section(zone, "Sides", CGNS_ENUMV(QUAD_4), 1, 2, {1, 2, 4, 3, 5, 6, 8, 7});
+    file.condition(zone, "Low", CGNS_ENUMV(ElementRange), {1, 1}, 1, CGNS_ENUMV(FaceCenter));
+    file.condition(zone, "High", CGNS_ENUMV(ElementList), {2}, 1, CGNS_ENUMV(FaceCenter));
+    int base = 0;
+    check(cg_base_write(file.id(), "ASurface", 2, 3, &base));
+}
+
+/** An array that has grown after it was written: in ADF files its data are in two runs. */
+void write_runs(const std::string& container, const std::string& path) {
+    File file(path, container, 3, 3);
+    const std::vector<Point> points = grid({2, 2, 2}, {0, 0, 0});
+    const int zone = file.unstructured_zone("Box", points.size(), 1);
+    file.coordinates(zone, points, 3);
+    file.section(zone, "Cells", CGNS_ENUMV(HEXA_8), 1, 1, {1, 2, 4, 3, 5, 6, 8, 7});
+    const int solution = file.solution(zone, "Solution", CGNS_ENUMV(Vertex));
+    int library = 0;
+    double parent = 0, node = 0;
+    check(cg_get_cgio(file.id(), &library));
+    check(cg_goto(file.id(), file.base(), "Zone_t", zone, "FlowSolution_t", solution, "end"));
+    std::vector<double> values;
+    for (const Point& point : points) {
+        values.push_back(pressure(point));
+    }
+    double root = 0;
+    check(cgio_get_root_id(library, &root));
+    check(cgio_get_node_id(library, root, "/Base/Box/Solution", &parent));
+    check(cgio_create_node(library, parent, "Pressure", &node));
+    check(cgio_set_label(library, node, "DataArray_t"));
+    for (const cgsize_t n : {cgsize_t{3}, cgsize_t{8}}) {
+        check(cgio_set_dimensions(library, node, "R8", 1, &n));
+        check(cgio_write_all_data(library, node, values.data()));
+    }
+}
+
+/** A square that stands upright in space. */
+void write_upright(const std::string& container, const std::string& path) {
+    File file(path, container, 2, 3);
+    const std::vector<Point> points = grid({2, 1, 2}, {0, 5, 0});
+    const int zone = file.unstructured_zone("Square", points.size(), 1);
+    file.coordinates(zone, points, 3);
+    file.section(zone, "Cells", CGNS_ENUMV(QUAD_4), 1, 1, {1, 2, 4, 3});
+    write_fields(file, zone, file.solution(zone, "Solution", CGNS_ENUMV(Vertex)), points, 0);
+}
+
 /** Values at faces beside values at vertices. */
 void write_location(const std::string& container, const std::string& path) {
     File file(path, container, 3, 3);
@@ -365,6 +429,12 @@ int main(int argc, char** argv) {
             write_boundaries(container, path);
         } else if (kind == "plane") {
             write_plane(container, path);
+        } else if (kind == "bases") {
+            write_bases(container, path);
+        } else if (kind == "runs") {
+            write_runs(container, path);
+        } else if (kind == "upright") {
+            write_upright(container, path);
         } else if (kind == "location") {
             write_location(container, path);
         } else if (kind == "links" && argc == 5) {

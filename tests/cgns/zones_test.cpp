@@ -105,3 +105,29 @@ TEST_CASE("files of later versions are read", "[cgns]") {
     set_version(path, 4.5);
     CHECK(field_error(open_cgns({path}), 0, 0) < 1e-13);
 }
+
+TEST_CASE("of several bases the one of the most dimensions is read", "[cgns]") {
+    const TemporaryFolder folder;
+    const SourceVolume source = open_cgns({write_cgns(folder, "bases", GENERATE("hdf5", "adf"))});
+    CHECK(source.info().n_elements == 1);
+    CHECK(source.info().mantissa_bits == 24);
+    CHECK(n_faces_by_group(source) == "High 1, Low 1");
+    CHECK(position(source, 0, {0, 0, 0}) == Point{0.5, 0.5, 0.5});
+}
+
+TEST_CASE("arrays in several runs of data", "[cgns]") {
+    const TemporaryFolder folder;
+    const SourceVolume source = open_cgns({write_cgns(folder, "runs", GENERATE("hdf5", "adf"))});
+    for (const Point& xi : {Point{-0.3, 0.2, -0.9}, Point{1, 1, 1}, Point{-1, -1, -1}}) {
+        CHECK(std::abs(sample(source, 0, xi).at(0) - cgns_test::pressure(position(source, 0, xi))) < 1e-14);
+    }
+}
+
+TEST_CASE("surfaces in space", "[cgns]") {
+    const TemporaryFolder folder;
+    const SourceVolume source = open_cgns({write_cgns(folder, "upright", GENERATE("hdf5", "adf"))});
+    CHECK(source.info().dimension == 2);
+    CHECK(position(source, 0, {0, 0, 0}) == Point{0.5, 5, 0.5});
+    CHECK(field_error(source, 0, 0) < 1e-13);
+    CHECK(convert(source, folder.path("volume.h5"), {}, {}).geometry_exact);
+}

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 namespace elvis_cgns {
 
@@ -100,27 +101,33 @@ Node Tree::follow(Node node, int depth) {
     return at;
 }
 
-std::vector<Node> Tree::children(const Node& node) {
+const std::vector<Node>& Tree::children(const Node& node) {
+    const std::pair key(node.container.get(), node.path);
+    const auto known = m_children.find(key);
+    if (known != m_children.end()) {
+        return known->second;
+    }
     std::vector<Node> all = node.container->children(node);
     for (Node& child : all) {
         child = follow(std::move(child), 0);
     }
-    return all;
+    return m_children.emplace(key, std::move(all)).first->second;
 }
 
 std::vector<Node> Tree::children(const Node& node, const std::string& label) {
-    std::vector<Node> all = children(node);
-    std::erase_if(all, [&](const Node& child) { return child.label != label; });
+    std::vector<Node> all;
+    std::ranges::copy_if(children(node), std::back_inserter(all), [&](const Node& child) { return child.label == label; });
     return all;
 }
 
 std::optional<Node> Tree::child(const Node& node, const std::string& label) {
-    const std::vector<Node> all = children(node, label);
-    return all.empty() ? std::nullopt : std::optional(all.front());
+    const std::vector<Node>& all = children(node);
+    const auto found = std::ranges::find(all, label, &Node::label);
+    return found == all.end() ? std::nullopt : std::optional(*found);
 }
 
 std::optional<Node> Tree::named(const Node& node, const std::string& name) {
-    const std::vector<Node> all = children(node);
+    const std::vector<Node>& all = children(node);
     const auto found = std::ranges::find(all, name, &Node::name);
     return found == all.end() ? std::nullopt : std::optional(*found);
 }

@@ -22,8 +22,8 @@ public:
     Node root() const { return m_root; }
     const std::string& path() const { return m_root.container->path(); }
 
-    /** Children in the order of their names, links followed. */
-    std::vector<Node> children(const Node& node);
+    /** Children in the order of their names, links followed. They are kept: a zone may have many. */
+    const std::vector<Node>& children(const Node& node);
     /** Those of a label. */
     std::vector<Node> children(const Node& node, const std::string& label);
     /** The first one of a label; nothing if there is none. */
@@ -36,6 +36,7 @@ private:
     Node follow(Node node, int depth);
 
     std::map<std::string, std::shared_ptr<const Container>> m_files;
+    std::map<std::pair<const Container*, std::string>, std::vector<Node>> m_children;
     Node m_root;
 };
 
