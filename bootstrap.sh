@@ -12,7 +12,7 @@ packages=(
     libpugixml-dev zlib1g-dev liblz4-dev
 )
 python_packages=(python3-dev pybind11-dev python3-numpy)
-test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py python3-matplotlib gmsh xvfb xdotool imagemagick abigail-tools)
+test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py python3-matplotlib gmsh libcgns-dev xvfb xdotool imagemagick abigail-tools)
 
 usage() {
     cat <<'END'

@@ -30,8 +30,6 @@ using namespace std::string_view_literals;
 
 /** HDF5 and netCDF say which program wrote them by the names of groups and attributes. */
 constexpr std::array hdf5_signs{
-    Sign{"CGNSLibraryVersion", "CGNS", to_vtu, false},
-    Sign{"num_el_blk", "Exodus II (netCDF 4)", to_vtu, false},
     Sign{"_NCProperties", "netCDF 4", to_vtu, false},
     Sign{"NEKTAR", "a field of Nektar++ in HDF5", "Nektar++'s FieldConvert writes it as XML (.fld) or .vtu (:vtu:highorder)",
          false},

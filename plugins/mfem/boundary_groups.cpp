@@ -7,10 +7,16 @@
 
 namespace elvis_mfem {
 
-BoundaryGroups::BoundaryGroups(const Mesh& mesh) {
+BoundaryGroups::BoundaryGroups(const Mesh& mesh, const std::vector<bool>& is_left_out) {
     // Attributes ascending, so that the groups' order does not depend on that of the elements.
     std::map<int, std::string> name_of;
-    for (const BoundaryElement& element : mesh.boundary) {
+    std::vector<BoundaryElement> boundary;
+    for (std::size_t index = 0; index < mesh.boundary.size(); ++index) {
+        if (!is_left_out[index]) {
+            boundary.push_back(mesh.boundary[index]);
+        }
+    }
+    for (const BoundaryElement& element : boundary) {
         name_of.try_emplace(element.attribute, "attribute " + std::to_string(element.attribute));
     }
     // An attribute may be in several sets: the smallest says most about it.
@@ -35,7 +41,7 @@ BoundaryGroups::BoundaryGroups(const Mesh& mesh) {
             m_names.push_back(name);
         }
     }
-    for (const BoundaryElement& element : mesh.boundary) {
+    for (const BoundaryElement& element : boundary) {
         VertexKey key = element.vertices;
         std::ranges::sort(key);
         m_groups.emplace(key, group_of[element.attribute]);

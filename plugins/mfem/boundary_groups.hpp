@@ -16,7 +16,8 @@ namespace elvis_mfem {
 
 class BoundaryGroups {
 public:
-    explicit BoundaryGroups(const Mesh& mesh);
+    /** `is_left_out`: of each boundary element, whether it is none. */
+    BoundaryGroups(const Mesh& mesh, const std::vector<bool>& is_left_out);
 
     /** Named after the attribute's set, or "attribute N". */
     const std::vector<std::string>& names() const { return m_names; }

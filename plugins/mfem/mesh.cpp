@@ -63,6 +63,15 @@ void check_vertices(const Text& text, const Mesh& mesh) {
     }
 }
 
+/** What the parts of a parallel mesh share: positions tell that, too. */
+void skip_communication(Text& text) {
+    if (!text.accept("communication_groups")) {
+        return;
+    }
+    while (text.word("mfem_mesh_end") != "mfem_mesh_end") {
+    }
+}
+
 Mesh read_conforming(Text& text) {
     Mesh mesh;
     mesh.dimension = read_dimension(text);
@@ -205,9 +214,7 @@ Mesh read_mesh(const std::string& path) {
     }
     text.accept("mfem_mesh_end");
     text.accept("mfem_serial_mesh_end");
-    if (text.peek() == "communication_groups") {
-        text.fail("this is a part of a parallel mesh, which is not supported; let MFEM save it in one file (Mesh::SaveAsOne)");
-    }
+    skip_communication(text);
     if (is_stream) {
         // Commands for GLVis may follow.
         mesh.solution = read_grid_function(text);

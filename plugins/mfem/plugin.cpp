@@ -3,48 +3,37 @@
  * Conversion plugin for meshes and grid functions of MFEM.
  */
 #include "boundary_groups.hpp"
-#include "field.hpp"
-#include "nurbs/nurbs_function.hpp"
+#include "part.hpp"
 #include "saved_cycle.hpp"
+#include "shared_faces.hpp"
 
 #include <elvis/native/space.hpp>
 #include <elvis/plugin.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <stdexcept>
+#include <memory>
 
 namespace {
 
 using namespace elvis_mfem;
 
-/** Meshes without nodes are linear: a grid function of the vertices. */
-GridFunction linear_nodes(std::vector<double> coordinates) {
-    GridFunction nodes;
-    nodes.n_components = 3;
-    nodes.is_interleaved = true;
-    nodes.values = std::move(coordinates);
-    return nodes;
-}
-
+/** Elements of all parts, one part after the other. */
 class Source : public elvis::api::ConverterSource {
 public:
     static std::uint32_t probe(const char* path) { return is_mesh(path) || is_root(path) ? 100 : 0; }
 
     Source(const elvis::api::Host& host, const std::vector<std::string>& paths, const std::string& options)
-        : ConverterSource(host), m_cycles(find_cycles(paths)), m_mesh(read_mesh(m_cycles.front().mesh)), m_groups(m_mesh) {
+        : ConverterSource(host), m_cycles(find_cycles(paths)) {
         if (!options.empty() && options != "{}") {
             throw elvis::api::Error(ELVIS_ERROR_INVALID_ARGUMENT, paths.front(), "this format has no options");
         }
-        GridFunction nodes = m_mesh.nodes ? std::move(*m_mesh.nodes) : linear_nodes(std::move(m_mesh.coordinates));
-        // Discontinuous nodes: vertices are topology only, as in periodic meshes.
-        m_has_corner_ids = nodes.collection.family == Family::h1;
-        m_mapping = make_function("nodes", m_cycles.front().mesh, std::move(nodes));
-        int digits = m_cycles.front().fields.empty() ? m_mesh.digits : 0;
-        for (const SavedCycle& cycle : m_cycles) {
-            digits = std::max(digits, read_step(cycle));
+        int digits = 0;
+        for (std::size_t part = 0; part < m_cycles.front().meshes.size(); ++part) {
+            add(std::make_unique<const Part>(host, m_cycles, part), m_cycles.front().meshes[part]);
+            digits = std::max(digits, m_parts.back()->digits());
         }
+        add_groups();
         // 8 digits are 26.6 bits. Files of small integers say nothing about the precision of what wrote them.
         constexpr int least_digits = 6;
         m_mantissa_bits =
@@ -52,12 +41,14 @@ public:
     }
 
     void get_info(elvis_source_info& info) override {
-        info.dimension = static_cast<std::uint32_t>(m_mesh.dimension);
-        info.n_elements = m_mesh.elements.size();
-        info.n_corner_ids = m_has_corner_ids ? m_mesh.n_vertices : 0;
+        // What several parts share, positions tell.
+        const bool has_corner_ids = m_parts.size() == 1 && m_parts.front()->has_corner_ids();
+        info.dimension = static_cast<std::uint32_t>(dimension());
+        info.n_elements = m_first.back();
+        info.n_corner_ids = has_corner_ids ? m_parts.front()->mesh().n_vertices : 0;
         info.n_fields = static_cast<std::uint32_t>(fields().size());
         info.n_time_steps = static_cast<std::uint32_t>(m_cycles.size());
-        info.n_boundary_groups = static_cast<std::uint32_t>(m_groups.names().size());
+        info.n_boundary_groups = static_cast<std::uint32_t>(m_groups.size());
         info.mantissa_bits = m_mantissa_bits;
     }
 
@@ -71,18 +62,22 @@ public:
 
     void get_elements(std::uint64_t first, elvis::api::StructArray<elvis_source_element> out) override {
         for (std::uint64_t index = 0; index < out.size(); ++index) {
-            const MeshElement& source = m_mesh.elements[first + index];
+            const Place at = place(first + index);
+            const Part& part = *m_parts[at.part];
+            const MeshElement& source = part.mesh().elements[at.element];
             elvis_source_element element{};
             element.shape = shape(source.geometry);
-            std::fill_n(element.geometry_order, m_mesh.dimension,
-                        static_cast<std::uint32_t>(std::max(1, m_mapping->native_space(first + index).order)));
+            std::fill_n(element.geometry_order, dimension(),
+                        static_cast<std::uint32_t>(std::max(1, part.mapping().native_space(at.element).order)));
             const auto corners = corner_vertices(source.geometry);
             for (std::size_t corner = 0; corner < corners.size(); ++corner) {
                 element.corners[corner] = source.vertices[static_cast<std::size_t>(corners[corner])];
             }
             const int n_faces = elvis::native::n_faces(static_cast<elvis::native::Shape>(element.shape));
             for (int face = 0; face < 6; ++face) {
-                element.face_groups[face] = face < n_faces ? m_groups.of_face(source, face) : ELVIS_GROUP_NONE;
+                const std::int32_t own = face < n_faces ? m_part_groups[at.part].of_face(source, face) : ELVIS_GROUP_NONE;
+                element.face_groups[face] =
+                    own == ELVIS_GROUP_NONE ? own : m_group_of[at.part][static_cast<std::size_t>(own)];
             }
             out.set(index, element);
         }
@@ -90,9 +85,10 @@ public:
 
     void get_spaces(std::uint32_t field, std::uint64_t first, elvis::api::StructArray<elvis_source_space> out) override {
         for (std::uint64_t index = 0; index < out.size(); ++index) {
-            const auto [order, is_contained] = fields()[field]->native_space(first + index);
+            const Place at = place(first + index);
+            const auto [order, is_contained] = m_parts[at.part]->fields(0)[field]->native_space(at.element);
             elvis_source_space space{};
-            std::fill_n(space.order, m_mesh.dimension, static_cast<std::uint32_t>(order));
+            std::fill_n(space.order, dimension(), static_cast<std::uint32_t>(order));
             space.is_contained = is_contained ? 1 : 0;
             out.set(index, space);
         }
@@ -101,109 +97,93 @@ public:
     void evaluate_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions) override {
         // In the plane the nodes have two components.
         std::ranges::fill(positions, 0.0);
-        m_mapping->evaluate(element, xi, positions.data(), 3);
+        const Place at = place(element);
+        m_parts[at.part]->mapping().evaluate(at.element, xi, positions.data(), 3);
     }
 
     void sample(std::uint32_t step, std::uint64_t element, std::span<const double> xi, double* values) override {
+        const Place at = place(element);
+        const auto& functions = m_parts[at.part]->fields(step);
         std::size_t stride = 0;
-        for (const auto& field : m_steps[step]) {
+        for (const auto& field : functions) {
             stride += field->n_components();
         }
-        for (const auto& field : m_steps[step]) {
-            field->evaluate(element, xi, values, stride);
+        for (const auto& field : functions) {
+            field->evaluate(at.element, xi, values, stride);
             values += field->n_components();
         }
     }
 
     double get_time(std::uint32_t step) { return m_cycles[step].time; }
 
-    elvis_string get_boundary_group(std::uint32_t group) { return m_groups.names()[group].c_str(); }
+    elvis_string get_boundary_group(std::uint32_t group) { return m_groups[group].c_str(); }
 
 private:
-    using Functions = std::vector<std::unique_ptr<const ElementFunction>>;
+    struct Place {
+        std::size_t part;
+        std::size_t element;
+    };
 
-    /** Of the first step: names and spaces of all. */
-    const Functions& fields() const { return m_steps.front(); }
+    Place place(std::uint64_t element) const {
+        const auto after = std::ranges::upper_bound(m_first, element);
+        const auto part = static_cast<std::size_t>(after - m_first.begin()) - 1;
+        return {part, static_cast<std::size_t>(element - m_first[part])};
+    }
+    int dimension() const { return m_parts.front()->mesh().dimension; }
+    /** Of the first part and step: names of all. */
+    const std::vector<std::unique_ptr<const ElementFunction>>& fields() const { return m_parts.front()->fields(0); }
 
-    /** Most decimal digits of the values. */
-    int read_step(const SavedCycle& cycle) {
-        Functions functions;
-        int digits = 0;
-        if (m_mesh.solution) {
-            functions.push_back(make_function("solution", cycle.mesh, std::move(*m_mesh.solution)));
-            digits = m_mesh.digits;
-        }
-        for (std::size_t index = 0; index < cycle.fields.size(); ++index) {
-            host().check_cancelled();
-            const SavedField& field = cycle.fields[index];
-            int own_digits = 0;
-            GridFunction function = read_solution(field.path, &own_digits);
-            digits = std::max(digits, own_digits);
-            check_space(index, function, field.path);
-            functions.push_back(make_function(field.name, field.path, std::move(function)));
-        }
-        if (functions.empty()) {
-            functions.push_back(std::make_unique<AttributeFunction>(m_mesh));
-        }
-        m_steps.push_back(std::move(functions));
-        return digits;
+    void add(std::unique_ptr<const Part> part, const std::string& path) {
+        check_like_first(*part, path);
+        m_first.push_back(m_first.back() + part->mesh().elements.size());
+        m_parts.push_back(std::move(part));
     }
 
-    /** Fields keep their space over time. */
-    void check_space(std::size_t field, const GridFunction& function, const std::string& path) {
-        GridFunction space{.collection = function.collection,
-                           .nurbs_order = function.nurbs_order,
-                           .n_components = function.n_components,
-                           .is_interleaved = false,
-                           .values = {}};
-        if (m_steps.empty()) {
-            m_spaces.push_back(std::move(space));
-        } else if (const GridFunction& first = m_spaces[field]; first.collection != space.collection ||
-                                                                first.nurbs_order != space.nurbs_order ||
-                                                                first.n_components != space.n_components) {
-            throw elvis::api::Error(
-                ELVIS_ERROR_UNSUPPORTED, path,
-                "the space of the field is another one than at the first time step, which is not supported");
-        }
-    }
-
-    void check_dimension(const Collection& collection, const std::string& path) const {
-        if (collection.dimension != 0 && collection.dimension != m_mesh.dimension) {
-            throw elvis::api::Error(ELVIS_ERROR_FORMAT, path,
-                                    "the finite element collection is of dimension " + std::to_string(collection.dimension) +
-                                        ", but the mesh of dimension " + std::to_string(m_mesh.dimension));
-        }
-        if (collection.is_vector() && m_mesh.dimension < m_mesh.space_dimension) {
-            throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path,
-                                    "Nedelec and Raviart-Thomas fields on surfaces in space are not supported");
-        }
-    }
-
-    std::unique_ptr<const ElementFunction> make_function(std::string name, const std::string& path, GridFunction function) {
-        if (function.nurbs_order > 0) {
-            return std::make_unique<NurbsFunction>(std::move(name), path, std::move(function), m_mesh);
-        }
-        check_dimension(function.collection, path);
-        try {
-            if (!m_topology && Space::needs_topology(function.collection)) {
-                m_topology.emplace(m_mesh);
+    /** Groups of all parts, by name. */
+    void add_groups() {
+        const std::vector<std::vector<bool>> shared = shared_faces(m_parts);
+        for (std::size_t part = 0; part < m_parts.size(); ++part) {
+            m_part_groups.emplace_back(m_parts[part]->mesh(), shared[part]);
+            std::vector<std::int32_t>& groups = m_group_of.emplace_back();
+            for (const std::string& name : m_part_groups.back().names()) {
+                const auto found = std::ranges::find(m_groups, name);
+                groups.push_back(static_cast<std::int32_t>(found - m_groups.begin()));
+                if (found == m_groups.end()) {
+                    m_groups.push_back(name);
+                }
             }
-        } catch (const std::invalid_argument& error) {
-            throw elvis::api::Error(ELVIS_ERROR_FORMAT, path, error.what());
         }
-        return std::make_unique<Field>(std::move(name), path, std::move(function), m_mesh, m_topology ? &*m_topology : nullptr);
+    }
+
+    /** Parts have the same dimension and the same fields. */
+    void check_like_first(const Part& part, const std::string& path) const {
+        const auto fail = [&](const std::string& what) {
+            throw elvis::api::Error(ELVIS_ERROR_FORMAT, path, what + " is not that of the first part of the mesh");
+        };
+        if (m_parts.empty()) {
+            return;
+        }
+        if (part.mesh().dimension != dimension()) {
+            fail("the dimension");
+        }
+        for (std::size_t field = 0; field < fields().size(); ++field) {
+            const ElementFunction &own = *part.fields(0)[field], &first = *fields()[field];
+            if (own.n_components() != first.n_components() || own.transform() != first.transform() ||
+                own.continuity() != first.continuity()) {
+                fail("the space of the field '" + first.name() + "'");
+            }
+        }
     }
 
     std::vector<SavedCycle> m_cycles;
-    Mesh m_mesh;
-    BoundaryGroups m_groups;
-    std::optional<Topology> m_topology;
-    bool m_has_corner_ids = true;
+    std::vector<std::unique_ptr<const Part>> m_parts;
+    /** Of each part its first element, and the number of all. */
+    std::vector<std::uint64_t> m_first{0};
+    std::vector<std::string> m_groups;
+    std::vector<BoundaryGroups> m_part_groups;
+    /** By part: which of these each of its groups is. */
+    std::vector<std::vector<std::int32_t>> m_group_of;
     std::uint32_t m_mantissa_bits = 53;
-    std::unique_ptr<const ElementFunction> m_mapping;
-    std::vector<Functions> m_steps;
-    /** Of the fields, without values. */
-    std::vector<GridFunction> m_spaces;
 };
 
 } // namespace
@@ -211,6 +191,7 @@ private:
 namespace {
 
 constexpr elvis_file_format formats[] = {elvis::api::file_format("MFEM mesh", ".mesh"),
+                                         elvis::api::file_format("MFEM parallel mesh, first part", ".000000"),
                                          elvis::api::file_format("MFEM grid function, after its mesh", ".gf"),
                                          elvis::api::file_format("MFEM VisIt collection", ".mfem_root")};
 constexpr elvis_formats formats_table = elvis::api::formats_table(formats);

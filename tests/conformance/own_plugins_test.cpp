@@ -62,6 +62,8 @@ TEST_CASE("The conversion plugins pass every check") {
     check(place, "elvis_mfem", volumes({"mfem/poisson-inline-tet-p6/mesh.mesh", "mfem/poisson-inline-tet-p6/sol.gf"}));
     check(place, "elvis_pyfr", volumes({"pyfr/mixed_3.1.pyfrm", "pyfr/waves_3.1.pyfrs"}));
     check(place, "elvis_hopr", volumes({"hopr/Circle_mesh.h5"}));
+    check(place, "elvis_cgns", volumes({"cgns/boxes.cgns"}));
+    check(place, "elvis_exodus", volumes({"exodus/solid.e"}));
     check(place, "elvis_vtk", volumes({"vtk/cells3.vtu"}));
     check(place, "elvis_nek5000", volumes({"nek5000/m22io_test0.f00003"}));
 }

@@ -66,7 +66,7 @@ TEST_CASE("what of a root file cannot be read is refused", "[mfem][data]") {
     }
     const auto of = [&](const std::string& root_text) { return failure({folder.write("a.mfem_root", root_text)}); };
     REQUIRE(of(text) == "no failure");
-    CHECK_THAT(of(replaced(text, "\"domains\": 1", "\"domains\": 4")), Contains("4 parts") && Contains("parallel"));
+    CHECK_THAT(of(replaced(text, "\"domains\": 1", "\"domains\": 4")), Contains("mesh.000001"));
     CHECK_THAT(of(replaced(text, "\"time\"", "\"tame\"")), Contains("a.mfem_root") && Contains("root file"));
     CHECK_THAT(of(replaced(text, "sol.%06d", "sol.%0xd")), Contains("number of a part"));
     CHECK_THAT(of(replaced(text, "sol.%06d", "other.%06d")), Contains("other.000000") && Contains("opened"));
