@@ -5,27 +5,31 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace elvis {
 
-double reference_excess(elvis_shape shape, const Vector3& xi) {
+std::array<double, 6> face_excesses(elvis_shape shape, const Vector3& xi) {
+    constexpr double none = -std::numeric_limits<double>::infinity();
     const auto [x, y, z] = xi;
     switch (shape) {
     case ELVIS_SHAPE_HEXAHEDRON:
-        return std::max({std::abs(x), std::abs(y), std::abs(z)}) - 1;
+        return {-x - 1, x - 1, -y - 1, y - 1, -z - 1, z - 1};
     case ELVIS_SHAPE_PRISM:
-        return std::max({-x - 1, std::abs(y) - 1, -z - 1, x + z});
+        return {-x - 1, -y - 1, y - 1, -z - 1, x + z, none};
     case ELVIS_SHAPE_PYRAMID:
-        return std::max({-x - 1, -y - 1, -z - 1, x + z, y + z});
+        return {-x - 1, -y - 1, -z - 1, x + z, y + z, none};
     case ELVIS_SHAPE_QUADRILATERAL:
-        return std::max(std::abs(x), std::abs(y)) - 1;
+        return {-x - 1, x - 1, -y - 1, y - 1, none, none};
     case ELVIS_SHAPE_TRIANGLE:
-        return std::max({-x - 1, -y - 1, x + y});
+        return {-x - 1, -y - 1, x + y, none, none, none};
     default:
         assert(shape == ELVIS_SHAPE_TETRAHEDRON);
-        return std::max({-x - 1, -y - 1, -z - 1, x + y + z + 1});
+        return {-x - 1, -y - 1, -z - 1, x + y + z + 1, none, none};
     }
 }
+
+double reference_excess(elvis_shape shape, const Vector3& xi) { return std::ranges::max(face_excesses(shape, xi)); }
 
 Vector3 project_into_shape(elvis_shape shape, const Vector3& xi) {
     auto [x, y, z] = xi;

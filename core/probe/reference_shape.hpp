@@ -12,6 +12,9 @@
 
 namespace elvis {
 
+/** By how much a point is beyond each of at most six faces, in no particular order; -infinity for those that are not there. */
+std::array<double, 6> face_excesses(elvis_shape shape, const Vector3& xi);
+
 /** Largest violation of a face constraint; <= 0 in the closed shape. Two-dimensional shapes have no third coordinate. */
 double reference_excess(elvis_shape shape, const Vector3& xi);
 

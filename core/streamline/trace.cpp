@@ -22,6 +22,8 @@ constexpr double longest_step = 0.5;
 constexpr double outside = 1e-12;
 /** Of the fastest that the line has been. */
 constexpr double slowest = 1e-9;
+/** One after the other. */
+constexpr int most_still_steps = 20;
 /** Between two points that are kept. */
 constexpr double largest_turn = 3 * 3.14159265358979 / 180;
 /** So far ahead a line is looked for in the next element; beyond its face by more, it leads back out. */
@@ -43,6 +45,7 @@ private:
     double excess(const FlowState& state) const { return reference_excess(m_flow.shape_of(state.at.element), state.at.xi); }
     double first_step(const FlowState& state) const;
     FlowStep end_where(const FlowState& start, double step, const std::function<double(const FlowState&)>& beyond) const;
+    FlowStep end_on_face(const FlowState& start, FlowStep step) const;
     std::optional<TraceEnd> enter_next(FlowState& state) const;
     bool leads_inside(const FlowState& state) const;
     void keep(const FlowState& from, const FlowState& to, std::vector<TracePoint>& points) const;
@@ -64,7 +67,8 @@ FlowStep Tracer::end_where(const FlowState& start, double step, const std::funct
     int side = 0;
     for (int iteration = 0; iteration < 60 && high - low > 1e-15 * step; ++iteration) {
         const double between = at_high - at_low > 0 ? high - at_high * (high - low) / (at_high - at_low) : 0;
-        const double next = between > low && between < high ? between : 0.5 * (low + high);
+        const bool is_halved = iteration % 4 == 3 || !(between > low && between < high);
+        const double next = is_halved ? 0.5 * (low + high) : between;
         result = dormand_prince(m_flow, start, next);
         const double value = beyond(result.end);
         if (std::abs(value) < 0.5 * outside) {
@@ -83,6 +87,25 @@ FlowStep Tracer::end_where(const FlowState& start, double step, const std::funct
         }
     }
     return result;
+}
+
+/** The step, which leaves its element, shortened until it ends on the first face that it crosses. */
+FlowStep Tracer::end_on_face(const FlowState& start, FlowStep step) const {
+    const elvis_shape shape = m_flow.shape_of(start.at.element);
+    // A line may begin on a face that it does not cross: of each face its own distance counts.
+    for (int face_count = 0; face_count < 6 && excess(step.end) > outside; ++face_count) {
+        const std::array<double, 6> at_end = face_excesses(shape, step.end.at.xi);
+        const auto beyond = [&](const FlowState& state) {
+            const std::array<double, 6> here = face_excesses(shape, state.at.xi);
+            double most = -1;
+            for (std::size_t face = 0; face < here.size(); ++face) {
+                most = at_end[face] > outside ? std::max(most, here[face] - outside) : most;
+            }
+            return most;
+        };
+        step = end_where(start, step.end.time - start.time, beyond);
+    }
+    return step;
 }
 
 bool Tracer::leads_inside(const FlowState& state) const {
@@ -133,6 +156,7 @@ void Tracer::keep(const FlowState& from, const FlowState& to, std::vector<TraceP
 
 TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
     double fastest = length(state.sample.velocity), step = 0;
+    int n_still = 0;
     for (std::uint32_t n_steps = 0; n_steps < m_options.most_steps; ++n_steps) {
         m_control.check();
         const double speed = length(state.sample.velocity);
@@ -154,10 +178,16 @@ TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
         }
         const bool leaves = excess(next.end) > outside;
         if (leaves) {
-            next = end_where(state, next.end.time - state.time, [&](const FlowState& at) { return excess(at) - outside; });
+            next = end_on_face(state, next);
         }
+        // It moves by no more than its error.
+        const bool is_still = length(minus(next.end.sample.position, state.sample.position)) < 10 * m_tolerance;
+        n_still = is_still ? n_still + 1 : 0;
         keep(state, next.end, points);
         state = next.end;
+        if (n_still > most_still_steps) {
+            return TraceEnd::stagnation;
+        }
         if (leaves) {
             if (const std::optional<TraceEnd> end = enter_next(state)) {
                 return *end;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 
 namespace elvis_mfem {
@@ -11,7 +12,7 @@ namespace elvis_mfem {
 namespace {
 
 using Corner = std::array<double, 3>;
-/** Of its corners, ascending; those that are missing are zero, at the end. */
+/** Of its corners, ascending; those that are missing are infinite. */
 using FaceKey = std::array<Corner, 4>;
 
 /** By vertex. */
@@ -31,14 +32,16 @@ std::vector<Corner> vertex_positions(const Part& part) {
 }
 
 FaceKey key_of(const BoundaryElement& element, const std::vector<Corner>& positions) {
-    FaceKey key{};
+    constexpr double missing = std::numeric_limits<double>::infinity();
+    FaceKey key;
+    key.fill({missing, missing, missing});
     std::size_t n = 0;
     for (const std::int32_t vertex : element.vertices) {
         if (vertex >= 0) {
             key[n++] = positions[static_cast<std::size_t>(vertex)];
         }
     }
-    std::sort(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(n));
+    std::ranges::sort(key);
     return key;
 }
 

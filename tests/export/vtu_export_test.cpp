@@ -89,9 +89,10 @@ Difference round_trip(const std::string& text, std::uint32_t step = 0) {
 void write_flat_volume(const std::string& path, std::uint32_t order) {
     native::Description description;
     description.dimension = 2;
-    description.fields.emplace_back();
-    description.fields[0].name = "u";
-    description.fields[0].n_components = 2;
+    native::Field field;
+    field.name = std::string("u");
+    field.n_components = 2;
+    description.fields.push_back(field);
     for (const native::Shape shape : {native::Shape::quadrilateral, native::Shape::triangle}) {
         const native::Space space{shape, native::Basis::modified, {order, order, 0}};
         description.classes.push_back({space, {space}, 1});

@@ -9,8 +9,11 @@ void write_line_csv(const traced& lines, const std::vector<LineColumn>& columns,
     std::string text = "line,time,arc_length,x,y,z,element";
     for (const LineColumn& column : columns) {
         for (std::uint32_t component = 0; component < column.n_components; ++component) {
-            const std::string index = column.n_components > 1 ? "[" + std::to_string(component) + "]" : "";
-            text.append(",").append(csv_name(column.name + index));
+            std::string name = column.name;
+            if (column.n_components > 1) {
+                name.append("[").append(std::to_string(component)).append("]");
+            }
+            text.append(",").append(csv_name(name));
         }
     }
     text += '\n';

@@ -297,7 +297,7 @@ private:
             variable.type = read_type(header);
             header.number(m_width); // The size, which its shape tells, too.
             variable.begin = header.number(offset_width);
-            n_numbers(*this, name, variable.shape);
+            n_numbers(*this, name, variable.shape); // Not too many to be counted.
             m_variables.emplace(std::move(name), std::move(variable));
         }
     }
@@ -331,6 +331,19 @@ private:
             if (variable.is_of_records) {
                 variable.shape.front() = m_n_records;
             }
+            n_numbers(*this, name, variable.shape);
+            check_end(name, variable);
+        }
+    }
+
+    void check_end(const std::string& name, const Variable& variable) const {
+        const std::uint64_t size = variable.n_entries() * n_bytes(variable.type);
+        const std::uint64_t n_before = variable.is_of_records && m_n_records > 0 ? m_n_records - 1 : 0;
+        const bool is_empty = size == 0 || (variable.is_of_records && m_n_records == 0);
+        const bool fits = variable.begin <= m_size && size <= m_size - variable.begin &&
+                          (n_before == 0 || n_before <= (m_size - variable.begin - size) / m_record_size);
+        if (!is_empty && !fits) {
+            fail(name, "lies beyond the end of the file, which is cut off");
         }
     }
 
@@ -345,8 +358,10 @@ private:
         if (numbers.empty()) {
             return;
         }
+        // Numbers along the last index lie side by side, but for records.
         const std::size_t rank = variable.shape.size();
-        const std::uint64_t run = rank > 0 ? count.back() : 1;
+        const std::size_t n_outer = rank == 1 && variable.is_of_records ? 1 : rank > 0 ? rank - 1 : 0;
+        const std::uint64_t run = n_outer < rank ? count.back() : 1;
         std::vector<std::uint8_t> bytes(run * n_bytes(variable.type));
         Extents at = start;
         for (std::uint64_t done = 0; done < numbers.size(); done += run) {
@@ -359,7 +374,7 @@ private:
                 numbers[done + i] = number_from<Number>(variable.type, &bytes[i * n_bytes(variable.type)]);
             }
             // The next row: as an odometer goes on.
-            for (std::size_t axis = rank > 0 ? rank - 1 : 0; axis-- > 0;) {
+            for (std::size_t axis = n_outer; axis-- > 0;) {
                 if (++at[axis] < start[axis] + count[axis]) {
                     break;
                 }

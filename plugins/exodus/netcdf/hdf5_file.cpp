@@ -1,13 +1,19 @@
 /*
- * netCDF-4: a variable is a dataset of HDF5, and so is a dimension; its length is that of the dataset.
+ * netCDF-4: a variable is a dataset of HDF5, and so is a dimension; its length is that of the dataset, or in
+ * its attribute NAME.
  */
 #include "netcdf.hpp"
 
 #include <plugins/hdf5/file.hpp>
 
+#include <charconv>
+#include <string_view>
+
 namespace elvis_exodus {
 
 namespace {
+
+constexpr std::string_view bare_dimension = "This is a netCDF dimension but not a netCDF variable.";
 
 class Hdf5File : public NetCdf {
 public:
@@ -17,8 +23,19 @@ public:
         if (!m_file.has(name)) {
             return std::nullopt;
         }
-        const Extents extents = m_file.dataset(name).shape();
-        return extents.empty() ? std::nullopt : std::optional(extents.front());
+        // A dimension without a variable is a dataset that was never written, whose attribute tells the length.
+        const std::string text = attribute(name, "NAME").value_or("");
+        if (!text.starts_with(bare_dimension)) {
+            const Extents extents = m_file.dataset(name).shape();
+            return extents.empty() ? std::nullopt : std::optional(extents.front());
+        }
+        const std::size_t digits = text.find_first_not_of(' ', bare_dimension.size());
+        std::uint64_t length = 0;
+        const char* const end = text.data() + text.size();
+        if (digits == std::string::npos || std::from_chars(text.data() + digits, end, length).ptr != end) {
+            fail(name, "has no length");
+        }
+        return length;
     }
     bool has(const std::string& variable) const override { return m_file.has(variable); }
     Extents shape(const std::string& variable) const override { return dataset(variable).shape(); }
