@@ -194,7 +194,7 @@ Mesh::Mesh(Tree& tree, const Base& base, const std::string& coordinates, const e
         host.check_cancelled();
         const auto first_vertex = static_cast<std::uint32_t>(n_vertices());
         const std::uint64_t first_element = n_elements();
-        m_zones.push_back({first_vertex, first_element});
+        m_zones.push_back(first_element);
         if (n_vertices() + zone.n_all_vertices() >= no_corner) {
             zone.node.fail("has more vertices than can be read");
         }
@@ -255,6 +255,10 @@ void Mesh::append_element(std::int64_t type, std::span<const std::uint32_t> node
     m_types.push_back(static_cast<std::uint8_t>(type));
     m_connectivity.insert(m_connectivity.end(), nodes.begin(), nodes.end());
     m_first.push_back(m_connectivity.size());
+}
+
+std::size_t Mesh::zone(std::uint64_t element) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(m_zones, element) - m_zones.begin()) - 1;
 }
 
 std::int32_t Mesh::face_group(std::uint64_t element, std::size_t face) const {

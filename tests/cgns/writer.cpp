@@ -393,6 +393,17 @@ void write_refused(const std::string& kind, const std::string& container, const 
     if (kind == "moving") {
         file.times(zone, {0, 1}, {"GridCoordinates", "GridCoordinates#1"}, "GridCoordinatesPointers");
     }
+    if (kind == "interpolation") {
+        // Nodes that this version of the library does not know.
+        int family = 0, library = 0;
+        double root = 0, parent = 0, node = 0;
+        check(cg_family_write(file.id(), file.base(), "HighOrder", &family));
+        check(cg_get_cgio(file.id(), &library));
+        check(cgio_get_root_id(library, &root));
+        check(cgio_get_node_id(library, root, "/Base/HighOrder", &parent));
+        check(cgio_create_node(library, parent, "Hexahedra", &node));
+        check(cgio_set_label(library, node, "ElementInterpolation_t"));
+    }
     if (kind == "face") {
         file.condition(zone, "Wall", CGNS_ENUMV(PointList), {1}, 1, CGNS_ENUMV(FaceCenter));
     }
