@@ -281,8 +281,9 @@ void write_boundaries(const std::string& container, const std::string& path) {
     write_fields(file, zone, solution, points, 0);
     file.condition(zone, "West", CGNS_ENUMV(PointList), {2}, 1, CGNS_ENUMV(FaceCenter));
     file.condition(zone, "Wall", CGNS_ENUMV(PointRange), {5, 6}, 1, CGNS_ENUMV(FaceCenter), "Walls");
-    // All vertices of the lower side, and so those of the face between the boxes at z = 0 only.
     file.condition(zone, "Bottom", CGNS_ENUMV(PointList), {1, 2, 3, 4, 5, 6}, 1, CGNS_ENUMV(Vertex));
+    // All vertices: also those of the face between the boxes.
+    file.condition(zone, "Rest", CGNS_ENUMV(PointRange), {1, 12}, 1, CGNS_ENUMV(Vertex));
 }
 
 /** Two triangles and two quadrilaterals in the plane, with edges. */

@@ -71,7 +71,7 @@ TEST_CASE("boundary conditions name elements or vertices; sections that none nam
     const SourceVolume source = open_cgns({write_cgns(folder, "boundaries", container)});
     CHECK(source.info().n_elements == 2);
     CHECK(source.info().n_corner_ids == 12);
-    CHECK(n_faces_by_group(source) == "Bottom 2, East 1, Walls 2, West 1");
+    CHECK(n_faces_by_group(source) == "Bottom 2, East 1, Rest 4, Walls 2, West 1");
     CHECK(field_error(source, 0, 0) < 1e-13);
     CHECK(source.fields()[0].continuity == ELVIS_CONTINUITY_CONTINUOUS);
 }
