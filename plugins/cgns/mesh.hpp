@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "base.hpp"
+#include "boundary.hpp"
 #include "element/element_type.hpp"
 
 #include <unordered_map>
@@ -42,6 +42,8 @@ public:
 
 private:
     void read_points(Tree& tree, const Base& base, const Zone& zone, const std::string& coordinates);
+    /** Those of the last zone, whose vertices begin at `first_vertex`. */
+    void add_groups(const std::vector<BoundaryGroup>& groups, std::uint32_t first_vertex);
     void append_element(std::int64_t type, std::span<const std::uint32_t> nodes);
 
     std::vector<double> m_points;
