@@ -11,8 +11,6 @@ namespace elvis_cgns {
 
 namespace {
 
-using elvis::native::Shape;
-
 std::vector<std::uint32_t> face_corners(std::span<const std::uint32_t> nodes, Topology topology, std::size_t face) {
     const std::span<const int> order = source_corners(topology);
     std::vector<std::uint32_t> corners;
