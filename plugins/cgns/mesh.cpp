@@ -1,6 +1,5 @@
 #include "mesh.hpp"
 
-#include "boundary.hpp"
 #include "element/nodes.hpp"
 #include "sections.hpp"
 
@@ -11,8 +10,6 @@
 namespace elvis_cgns {
 
 namespace {
-
-using elvis::native::Shape;
 
 std::vector<std::uint32_t> face_corners(std::span<const std::uint32_t> nodes, Topology topology, std::size_t face) {
     const std::span<const int> order = source_corners(topology);
@@ -192,12 +189,11 @@ private:
 Mesh::Mesh(Tree& tree, const Base& base, const std::string& coordinates, const elvis::api::Host& host) {
     for (const Zone& zone : base.zones) {
         host.check_cancelled();
-        const auto first_vertex = static_cast<std::uint32_t>(n_vertices());
-        const std::uint64_t first_element = n_elements();
-        m_zones.push_back({first_vertex, first_element});
         if (n_vertices() + zone.n_all_vertices() >= no_corner) {
             zone.node.fail("has more vertices than can be read");
         }
+        const auto first_vertex = static_cast<std::uint32_t>(n_vertices());
+        m_zones.push_back(n_elements());
         read_points(tree, base, zone, coordinates);
         std::vector<std::uint32_t> in_mesh;
         ZoneReader reader(tree, base, zone);
@@ -208,22 +204,25 @@ Mesh::Mesh(Tree& tree, const Base& base, const std::string& coordinates, const e
             }
             append_element(type, in_mesh);
         });
-        const std::vector<BoundaryGroup> groups = read_boundary(tree, zone, reader.boundaries, host);
-        const FaceGroups face_groups(groups);
-        std::vector<std::int32_t> in_all;
-        for (const BoundaryGroup& group : groups) {
-            const auto found = std::ranges::find(m_groups, group.name);
-            in_all.push_back(static_cast<std::int32_t>(found - m_groups.begin()));
-            if (found == m_groups.end()) {
-                m_groups.push_back(group.name);
-            }
-        }
-        if (!face_groups.is_empty()) {
-            find_faces(*this, first_element, first_vertex, face_groups,
-                       [&](std::uint64_t face, std::size_t group) { m_face_groups.emplace(face, in_all[group]); });
-        }
+        add_groups(read_boundary(tree, zone, reader.boundaries, host), first_vertex);
     }
     m_has_shared_vertices = m_connectivity.size() > n_vertices();
+}
+
+void Mesh::add_groups(const std::vector<BoundaryGroup>& groups, std::uint32_t first_vertex) {
+    std::vector<std::int32_t> in_mesh;
+    for (const BoundaryGroup& group : groups) {
+        const auto found = std::ranges::find(m_groups, group.name);
+        in_mesh.push_back(static_cast<std::int32_t>(found - m_groups.begin()));
+        if (found == m_groups.end()) {
+            m_groups.push_back(group.name);
+        }
+    }
+    const FaceGroups of_zone(groups);
+    if (!of_zone.is_empty()) {
+        find_faces(*this, m_zones.back(), first_vertex, of_zone,
+                   [&](std::uint64_t face, std::size_t group) { m_face_groups.emplace(face, in_mesh[group]); });
+    }
 }
 
 void Mesh::read_points(Tree& tree, const Base& base, const Zone& zone, const std::string& name) {
@@ -255,6 +254,10 @@ void Mesh::append_element(std::int64_t type, std::span<const std::uint32_t> node
     m_types.push_back(static_cast<std::uint8_t>(type));
     m_connectivity.insert(m_connectivity.end(), nodes.begin(), nodes.end());
     m_first.push_back(m_connectivity.size());
+}
+
+std::size_t Mesh::zone(std::uint64_t element) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(m_zones, element) - m_zones.begin()) - 1;
 }
 
 std::int32_t Mesh::face_group(std::uint64_t element, std::size_t face) const {

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "base.hpp"
+#include "boundary.hpp"
 #include "element/element_type.hpp"
 
 #include <unordered_map>
@@ -33,21 +33,17 @@ public:
     /** Three numbers. */
     const double* point(std::uint32_t vertex) const { return &m_points[3 * std::size_t{vertex}]; }
 
-    /** Of a zone: where its vertices and its elements begin. */
-    std::uint64_t first_vertex(std::size_t zone) const { return m_zones[zone].vertex; }
-    std::uint64_t first_element(std::size_t zone) const { return m_zones[zone].element; }
+    /** Of which zone of the base an element is. */
+    std::size_t zone(std::uint64_t element) const;
 
     const std::vector<std::string>& groups() const { return m_groups; }
     /** Of a local face of elvis/element.h; ELVIS_GROUP_NONE where there is none. */
     std::int32_t face_group(std::uint64_t element, std::size_t face) const;
 
 private:
-    struct First {
-        std::uint64_t vertex;
-        std::uint64_t element;
-    };
-
     void read_points(Tree& tree, const Base& base, const Zone& zone, const std::string& coordinates);
+    /** Those of the last zone, whose vertices begin at `first_vertex`. */
+    void add_groups(const std::vector<BoundaryGroup>& groups, std::uint32_t first_vertex);
     void append_element(std::int64_t type, std::span<const std::uint32_t> nodes);
 
     std::vector<double> m_points;
@@ -55,7 +51,8 @@ private:
     /** In the connectivity, of each element and of the end. */
     std::vector<std::uint64_t> m_first{0};
     std::vector<std::uint32_t> m_connectivity;
-    std::vector<First> m_zones;
+    /** Of each zone, the first element. */
+    std::vector<std::uint64_t> m_zones;
     std::uint32_t m_mantissa_bits = 53;
     bool m_has_shared_vertices = false;
     std::vector<std::string> m_groups;

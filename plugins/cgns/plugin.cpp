@@ -34,13 +34,19 @@ public:
         info.dimension = m_base.dimension;
         info.n_elements = m_mesh.n_elements();
         info.n_corner_ids = has_corner_ids() ? m_mesh.n_vertices() : 0;
-        info.n_fields = static_cast<std::uint32_t>(m_solutions.fields().size());
+        info.n_fields = is_bare() ? 1 : static_cast<std::uint32_t>(m_solutions.fields().size());
         info.n_time_steps = static_cast<std::uint32_t>(m_solutions.times().size());
         info.n_boundary_groups = static_cast<std::uint32_t>(m_mesh.groups().size());
         info.mantissa_bits = std::min(m_mesh.mantissa_bits(), m_solutions.mantissa_bits());
     }
 
     void get_field(std::uint32_t index, elvis_source_field& out) override {
+        if (is_bare()) {
+            out.name = "zone";
+            out.n_components = 1;
+            out.continuity = ELVIS_CONTINUITY_DISCONTINUOUS;
+            return;
+        }
         const Field& field = m_solutions.fields()[index];
         out.n_components = static_cast<std::uint32_t>(field.arrays.size());
         out.name = field.name.c_str();
@@ -72,7 +78,7 @@ public:
         for (std::uint64_t index = 0; index < out.size(); ++index) {
             elvis_source_space space{};
             space.is_contained = 1;
-            if (!m_solutions.fields()[field].is_of_cells) {
+            if (!is_bare() && !m_solutions.fields()[field].is_of_cells) {
                 std::ranges::copy(m_bases.of(m_mesh.type(first + index)).native_order(), space.order);
             }
             out.set(index, space);
@@ -90,6 +96,10 @@ public:
     }
 
     void sample(std::uint32_t step, std::uint64_t element, std::span<const double> xi, double* values) override {
+        if (is_bare()) {
+            std::fill_n(values, xi.size() / 3, static_cast<double>(m_mesh.zone(element)));
+            return;
+        }
         const std::shared_ptr<const StepValues> all = m_solutions.values(step);
         const std::span<const std::uint32_t> nodes = m_mesh.nodes(element);
         const auto functions = m_bases.of(m_mesh.type(element)).at(xi);
@@ -127,6 +137,9 @@ private:
         }
         return paths.front();
     }
+
+    /** Grids without solutions have a field, too: the number of the zone. */
+    bool is_bare() const { return m_solutions.fields().empty(); }
 
     /** Vertices are shared within unstructured zones only; elsewhere corners are matched by position. */
     bool has_corner_ids() const {

@@ -14,7 +14,7 @@ struct ArrayKey {
     bool is_of_cells;
     std::string name;
 
-    friend auto operator<=>(const ArrayKey&, const ArrayKey&) = default;
+    friend auto operator<=>(const ArrayKey&, const ArrayKey&) = default; // NOLINT(modernize-use-nullptr): clang-tidy's own 0
 };
 
 /** Whether a solution can be read; a reason if it cannot. */

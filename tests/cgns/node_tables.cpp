@@ -8,8 +8,8 @@ namespace {
 
 /**
  * Steps of 1/order from the first corner along each axis, node by node; in pyramids the first two count from the corner of the
- * section at that height. After the figures and tables of the SIDS, "Unstructured Grid Element Numbering Conventions". Elements
- * with fewer nodes have the first of them.
+ * section at that height. The order of the SIDS, "Unstructured Grid Element Numbering Conventions", as SU2 and Gmsh have it,
+ * with which the tables were compared. Elements with fewer nodes have the first of them.
  */
 struct Lattice {
     int dimension;

@@ -1,6 +1,6 @@
 /**
  * @file node_tables.hpp
- * The numbering conventions of the SIDS as tables, which know nothing of the plugin.
+ * The numbering conventions of the SIDS as tables: without the rules by which the plugin makes them.
  */
 #pragma once
 

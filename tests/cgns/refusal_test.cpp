@@ -17,6 +17,7 @@ TEST_CASE("what cannot be read is refused with its place", "[cgns]") {
     CHECK_THAT(failure_of("solution"), Contains("NotThere") && Contains("time step 1"));
     CHECK_THAT(failure_of("moving"), Contains("GridCoordinates#1") && Contains("move"));
     CHECK_THAT(failure_of("face"), Contains("/Base/Box/ZoneBC/Wall/PointList") && Contains("element 1"));
+    CHECK_THAT(failure_of("interpolation"), Contains("/Base/HighOrder/Hexahedra") && Contains("CPEX 0045"));
     CHECK_THAT(failure_of("lines"), Contains("/Base") && Contains("lines"));
 }
 

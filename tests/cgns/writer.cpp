@@ -281,8 +281,9 @@ void write_boundaries(const std::string& container, const std::string& path) {
     write_fields(file, zone, solution, points, 0);
     file.condition(zone, "West", CGNS_ENUMV(PointList), {2}, 1, CGNS_ENUMV(FaceCenter));
     file.condition(zone, "Wall", CGNS_ENUMV(PointRange), {5, 6}, 1, CGNS_ENUMV(FaceCenter), "Walls");
-    // All vertices of the lower side, and so those of the face between the boxes at z = 0 only.
     file.condition(zone, "Bottom", CGNS_ENUMV(PointList), {1, 2, 3, 4, 5, 6}, 1, CGNS_ENUMV(Vertex));
+    // All vertices: also those of the face between the boxes.
+    file.condition(zone, "Rest", CGNS_ENUMV(PointRange), {1, 12}, 1, CGNS_ENUMV(Vertex));
 }
 
 /** Two triangles and two quadrilaterals in the plane, with edges. */
@@ -392,6 +393,17 @@ void write_refused(const std::string& kind, const std::string& container, const 
     }
     if (kind == "moving") {
         file.times(zone, {0, 1}, {"GridCoordinates", "GridCoordinates#1"}, "GridCoordinatesPointers");
+    }
+    if (kind == "interpolation") {
+        // Nodes that this version of the library does not know.
+        int family = 0, library = 0;
+        double root = 0, parent = 0, node = 0;
+        check(cg_family_write(file.id(), file.base(), "HighOrder", &family));
+        check(cg_get_cgio(file.id(), &library));
+        check(cgio_get_root_id(library, &root));
+        check(cgio_get_node_id(library, root, "/Base/HighOrder", &parent));
+        check(cgio_create_node(library, parent, "Hexahedra", &node));
+        check(cgio_set_label(library, node, "ElementInterpolation_t"));
     }
     if (kind == "face") {
         file.condition(zone, "Wall", CGNS_ENUMV(PointList), {1}, 1, CGNS_ENUMV(FaceCenter));

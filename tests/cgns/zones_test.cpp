@@ -71,7 +71,7 @@ TEST_CASE("boundary conditions name elements or vertices; sections that none nam
     const SourceVolume source = open_cgns({write_cgns(folder, "boundaries", container)});
     CHECK(source.info().n_elements == 2);
     CHECK(source.info().n_corner_ids == 12);
-    CHECK(n_faces_by_group(source) == "Bottom 2, East 1, Walls 2, West 1");
+    CHECK(n_faces_by_group(source) == "Bottom 2, East 1, Rest 4, Walls 2, West 1");
     CHECK(field_error(source, 0, 0) < 1e-13);
     CHECK(source.fields()[0].continuity == ELVIS_CONTINUITY_CONTINUOUS);
 }
@@ -113,6 +113,9 @@ TEST_CASE("of several bases the one of the most dimensions is read", "[cgns]") {
     CHECK(source.info().mantissa_bits == 24);
     CHECK(n_faces_by_group(source) == "High 1, Low 1");
     CHECK(position(source, 0, {0, 0, 0}) == Point{0.5, 0.5, 0.5});
+    CHECK(field_names(source) == std::vector<std::string>{"zone"});
+    CHECK(sample(source, 0, {0, 0, 0}) == std::vector{0.0});
+    CHECK(convert(source, folder.path("volume.h5"), {}, {}).fields.at(0).exact);
 }
 
 TEST_CASE("arrays in several runs of data", "[cgns]") {

@@ -22,7 +22,8 @@ struct ElementType {
     int order = 1;
     Nodes nodes = Nodes::all;
 
-    friend auto operator<=>(const ElementType&, const ElementType&) = default;
+    friend auto operator<=>(const ElementType&,
+                            const ElementType&) = default; // NOLINT(modernize-use-nullptr): clang-tidy's own 0
 };
 
 /** Numbers that do not stand for one kind of element. */
