@@ -152,8 +152,9 @@ void add_info(CLI::App& app) {
     command->add_flag("--json", a->json, "Answer in JSON");
     command->callback([a] {
         const context library = library_context();
-        const data volume = warped(open_watched([&](const task& watch) { return library.open(a->files, a->plugin, {}, watch); }),
-                                   a->warp, a->time_step);
+        const data volume =
+            warped(open_watched([&](const task& watch) { return library.open(a->files, a->plugin, {}, watch); }), a->warp,
+                   a->time_step);
         auto options = detail::sized<elvis_describe_options>();
         options.flags = ELVIS_DESCRIBE_JACOBIAN_TOLERANCE | (a->lists_all ? ELVIS_DESCRIBE_ALL : 0u);
         options.time_step = a->time_step;

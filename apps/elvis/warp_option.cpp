@@ -5,9 +5,9 @@
 namespace elvis::commands {
 
 void add_warp(CLI::App& command, WarpArguments& arguments) {
-    CLI::Option* const field = command.add_option(
-        "--warp", arguments.field,
-        "Displace the geometry by this vector field; in two dimensions also by a number, which is a height");
+    CLI::Option* const field =
+        command.add_option("--warp", arguments.field,
+                           "Displace the geometry by this vector field; in two dimensions also by a number, which is a height");
     command.add_option("--warp-factor", arguments.factor, "Times which the displacement is taken; default: 1")->needs(field);
     command.add_option("--warp-imaginary", arguments.imaginary, "Imaginary part of a complex displacement")->needs(field);
     command

@@ -214,8 +214,9 @@ public:
         return std::make_unique<Volume>(m_context, std::move(*displaced));
     }
     /** Of each line begin, end, and dictionaries' arrays of its points: what elvis_data_trace finds. */
-    py::dict trace(const std::string& field, const Doubles& seeds, std::uint32_t direction, const std::vector<std::string>& fields,
-                   double tolerance, double length, std::uint32_t time_step, const py::object& progress) const {
+    py::dict trace(const std::string& field, const Doubles& seeds, std::uint32_t direction,
+                   const std::vector<std::string>& fields, double tolerance, double length, std::uint32_t time_step,
+                   const py::object& progress) const {
         if (seeds.ndim() != 2 || seeds.shape(1) != 3) {
             throw error(ELVIS_ERROR_INVALID_ARGUMENT, "seeds: an array of the shape (n, 3) is wanted");
         }

@@ -23,7 +23,8 @@ constexpr UnaryFunction functions_of_numbers[] = {
 };
 
 const std::vector<std::string> field_functions{"d", "grad", "div", "curl", "vorticity", "laplacian", "q_criterion", "order"};
-const std::vector<std::string> other_functions{"min", "max", "atan2", "modulus", "argument", "log10", "pow", "norm", "dot", "cross"};
+const std::vector<std::string> other_functions{"min",   "max", "atan2", "modulus", "argument",
+                                               "log10", "pow", "norm",  "dot",     "cross"};
 const std::vector<std::string> coordinates{"x", "y", "z"};
 const std::vector<std::string> element_names{"jacobian", "scaled_jacobian", "order", "element"};
 

@@ -39,7 +39,9 @@ SolidElement::SolidElement(const RuntimeVolume& volume, std::uint64_t element)
 }
 
 Vector3 SolidElement::own(const Vector3& solid) const {
-    return !is_plate() ? solid : m_shape == ELVIS_SHAPE_TRIANGLE ? Vector3{solid[0], solid[2], 0} : Vector3{solid[0], solid[1], 0};
+    return !is_plate()                       ? solid
+           : m_shape == ELVIS_SHAPE_TRIANGLE ? Vector3{solid[0], solid[2], 0}
+                                             : Vector3{solid[0], solid[1], 0};
 }
 
 Vector3 SolidElement::solid(const Vector3& own) const {

@@ -36,7 +36,8 @@ public:
      * What is to be known of a time step comes with the first picture of it. `shown` is scene_of(frame), whose streamlines have
      * their tubes; `volume`, which `renderer` draws, is displaced as it says.
      */
-    StillPicture draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options, const TaskControl* control = nullptr);
+    StillPicture draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, Renderer& renderer,
+                      const StillOptions& options, const TaskControl* control = nullptr);
 
     /** What all pictures that were drawn so far do not show, a sentence each. */
     std::vector<std::string> missed(VolumeRanges& ranges) const;

@@ -65,7 +65,9 @@ void say_ends(const std::string& flow, const std::vector<Streamline>& lines) {
         }
     }
     const LogLevel level = n_jumps + n_cut_short > 0 ? LogLevel::warning : LogLevel::info;
-    log_line(level, "streamlines of {}: {}, {} of them with seeds outside of the volume; {} between elements where the field jumps back, {} by the number of steps",
+    log_line(level,
+             "streamlines of {}: {}, {} of them with seeds outside of the volume; {} between elements where the field jumps "
+             "back, {} by the number of steps",
              flow, counted(lines.size(), "line"), n_outside, counted(n_jumps, "end"), counted(n_cut_short, "end"));
 }
 

@@ -173,8 +173,9 @@ TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
         }
         const bool is_too_long = next.end.arc_length > m_options.most_length;
         if (is_too_long) {
-            next = end_where(state, step,
-                             [&](const FlowState& at) { return (at.arc_length - m_options.most_length) / m_finder.diagonal(); });
+            next = end_where(state, step, [&](const FlowState& at) {
+                return (at.arc_length - m_options.most_length) / m_finder.diagonal();
+            });
         }
         const bool leaves = excess(next.end) > outside;
         if (leaves) {

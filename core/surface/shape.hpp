@@ -68,8 +68,7 @@ struct TubeSurface {
     std::shared_ptr<const TubeSet> tubes;
 };
 
-using CutShape =
-    std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface, TubeSurface>;
+using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface, TubeSurface>;
 
 /** Checks what the comments above ask for; throws Error that names `place` and the number. */
 void check_shape(const CutShape& shape, const std::string& place);

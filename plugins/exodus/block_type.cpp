@@ -20,10 +20,11 @@ struct Family {
 };
 
 /** Longer names first: one may begin with another. */
-constexpr Family families[] = {{"TRISHELL", triangle}, {"HEX", hexahedron}, {"TET", tetrahedron}, {"WEDGE", prism}, {"PRISM", prism},
-                               {"PENTA", prism}, {"PYR", pyramid}, {"SHELL", quadrilateral}, {"QUAD", quadrilateral},
-                               {"TRI", triangle}, {"BAR", line}, {"BEAM", line}, {"TRUSS", line}, {"EDGE", line}, {"ROD", line},
-                               {"CIRCLE", node}, {"SPHERE", node}, {"POINT", node}};
+constexpr Family families[] = {{"TRISHELL", triangle},  {"HEX", hexahedron}, {"TET", tetrahedron}, {"WEDGE", prism},
+                               {"PRISM", prism},        {"PENTA", prism},    {"PYR", pyramid},     {"SHELL", quadrilateral},
+                               {"QUAD", quadrilateral}, {"TRI", triangle},   {"BAR", line},        {"BEAM", line},
+                               {"TRUSS", line},         {"EDGE", line},      {"ROD", line},        {"CIRCLE", node},
+                               {"SPHERE", node},        {"POINT", node}};
 
 /** By number of nodes; the corners alone are of order 1. */
 const std::map<std::pair<Topology, std::size_t>, ElementType>& types() {

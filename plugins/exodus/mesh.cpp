@@ -186,9 +186,10 @@ void Mesh::add_side(const NetCdf& file, std::int64_t element, std::int64_t side,
         const std::span<const int> of_file = elvis_cgns::source_corners(topology);
         for (int face = 0; face < elvis::native::n_faces(shape); ++face) {
             const std::span<const int> own_corners = elvis::native::face_corners(shape, face);
-            const bool is_same = own_corners.size() == corners.size() && std::ranges::all_of(own_corners, [&](int corner) {
-                                     return std::ranges::find(corners, of_file[static_cast<std::size_t>(corner)]) != corners.end();
-                                 });
+            const bool is_same =
+                own_corners.size() == corners.size() && std::ranges::all_of(own_corners, [&](int corner) {
+                    return std::ranges::find(corners, of_file[static_cast<std::size_t>(corner)]) != corners.end();
+                });
             if (is_same) {
                 m_face_groups.try_emplace(8 * own + static_cast<std::uint64_t>(face), group);
             }

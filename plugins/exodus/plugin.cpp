@@ -32,7 +32,8 @@ public:
     }
 
     Source(const elvis::api::Host& host, const std::vector<std::string>& paths, const std::string& options)
-        : ConverterSource(host), m_file(open_netcdf(only_one(paths, options))), m_mesh(*m_file, host), m_variables(*m_file, m_mesh) {
+        : ConverterSource(host), m_file(open_netcdf(only_one(paths, options))), m_mesh(*m_file, host),
+          m_variables(*m_file, m_mesh) {
         for (const Block& block : m_mesh.blocks()) {
             m_bases.add(block.type);
         }
@@ -131,9 +132,10 @@ private:
             throw elvis::api::Error(ELVIS_ERROR_INVALID_ARGUMENT, paths.front(), "this format has no options");
         }
         if (paths.size() > 1) {
-            throw elvis::api::Error(ELVIS_ERROR_INVALID_ARGUMENT, paths[1],
-                                    "an Exodus II file holds all of its data set: name one file only; parts of a mesh are to be joined "
-                                    "before (epu)");
+            throw elvis::api::Error(
+                ELVIS_ERROR_INVALID_ARGUMENT, paths[1],
+                "an Exodus II file holds all of its data set: name one file only; parts of a mesh are to be joined "
+                "before (epu)");
         }
         return paths.front();
     }

@@ -60,7 +60,8 @@ void Variables::add_fields(const std::vector<std::string>& names, bool is_of_ele
         const std::string& first = names[variable];
         Field field{first, is_of_elements, {variable}};
         const bool may_begin = first.size() > 1 && (first.back() == 'x' || first.back() == 'X');
-        for (std::size_t next = variable + 1; may_begin && next < names.size() && field.variables.size() < m_mesh.dimension(); ++next) {
+        for (std::size_t next = variable + 1; may_begin && next < names.size() && field.variables.size() < m_mesh.dimension();
+             ++next) {
             if (!ends_with_axis(names[next], first, static_cast<char>('x' + field.variables.size()))) {
                 break;
             }
@@ -96,7 +97,8 @@ std::vector<double> Variables::elemental(std::size_t variable, std::size_t step)
     for (const Block& block : m_mesh.blocks()) {
         if (has(variable, block)) {
             const std::string name = "vals_elem_var" + std::to_string(variable + 1) + "eb" + std::to_string(block.number);
-            m_file.read(name, {step, 0}, {1, block.n_elements}, std::span(values).subspan(block.first_element, block.n_elements));
+            m_file.read(name, {step, 0}, {1, block.n_elements},
+                        std::span(values).subspan(block.first_element, block.n_elements));
         }
     }
     return values;

@@ -67,9 +67,8 @@ void Part::check_space(std::size_t field, const GridFunction& function, const st
     } else if (const GridFunction& first = m_spaces[field]; first.collection != space.collection ||
                                                             first.nurbs_order != space.nurbs_order ||
                                                             first.n_components != space.n_components) {
-        throw elvis::api::Error(
-            ELVIS_ERROR_UNSUPPORTED, path,
-            "the space of the field is another one than at the first time step, which is not supported");
+        throw elvis::api::Error(ELVIS_ERROR_UNSUPPORTED, path,
+                                "the space of the field is another one than at the first time step, which is not supported");
     }
 }
 
@@ -85,8 +84,7 @@ void Part::check_dimension(const Collection& collection, const std::string& path
     }
 }
 
-std::unique_ptr<const ElementFunction> Part::make_function(std::string name, const std::string& path,
-                                                           GridFunction function) {
+std::unique_ptr<const ElementFunction> Part::make_function(std::string name, const std::string& path, GridFunction function) {
     if (function.nurbs_order > 0) {
         return std::make_unique<NurbsFunction>(std::move(name), path, std::move(function), m_mesh);
     }

@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "element_function.hpp"
 #include "element/space.hpp"
+#include "element_function.hpp"
 #include "saved_cycle.hpp"
 
 #include <elvis/plugin.hpp>

@@ -76,8 +76,7 @@ public:
             const int n_faces = elvis::native::n_faces(static_cast<elvis::native::Shape>(element.shape));
             for (int face = 0; face < 6; ++face) {
                 const std::int32_t own = face < n_faces ? m_part_groups[at.part].of_face(source, face) : ELVIS_GROUP_NONE;
-                element.face_groups[face] =
-                    own == ELVIS_GROUP_NONE ? own : m_group_of[at.part][static_cast<std::size_t>(own)];
+                element.face_groups[face] = own == ELVIS_GROUP_NONE ? own : m_group_of[at.part][static_cast<std::size_t>(own)];
             }
             out.set(index, element);
         }

@@ -1,6 +1,7 @@
 /**
  * @file saved_cycle.hpp
- * Which files a time step consists of: those named by the user, or those that a VisItDataCollection's root file names, with all parts.
+ * Which files a time step consists of: those named by the user, or those that a VisItDataCollection's root file names, with all
+ * parts.
  */
 #pragma once
 

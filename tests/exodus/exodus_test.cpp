@@ -85,7 +85,7 @@ double largest_error(const SourceVolume& source, std::uint32_t step) {
             std::array<double, 3> x{};
             source.evaluate_mapping(element, xi, x);
             source.sample(step, element, xi, values);
-            const double *const s = &values[1];
+            const double* const s = &values[1];
             const double bend = is_bent(element, dimension) ? quadratic(s, dimension) : 0;
             const double linear = 1 + s[0] - 2 * s[1] + (dimension == 3 ? 0.5 * s[2] : 0);
             const double size = 1 + std::abs(linear + bend);

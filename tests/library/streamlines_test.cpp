@@ -38,7 +38,8 @@ TEST_CASE("The tube about a straight streamline is a cylinder") {
         const picture pipe = volume.render(with_surface(
             library, R"({"type": "cylinder", "from": [-1, 0.05, 0.1], "to": [1, 0.05, 0.1], "radius": 0.1, "capped": false})",
             precision));
-        const std::vector<double> of_tube = tube.read<double>(ELVIS_CHANNEL_DEPTH), of_pipe = pipe.read<double>(ELVIS_CHANNEL_DEPTH);
+        const std::vector<double> of_tube = tube.read<double>(ELVIS_CHANNEL_DEPTH),
+                                  of_pipe = pipe.read<double>(ELVIS_CHANNEL_DEPTH);
         std::size_t n_both = 0, n_one = 0;
         double largest = 0;
         for (std::size_t pixel = 0; pixel < of_tube.size(); ++pixel) {
@@ -47,7 +48,8 @@ TEST_CASE("The tube about a straight streamline is a cylinder") {
             n_one += has_tube != has_pipe ? 1 : 0;
             largest = has_tube && has_pipe ? std::max(largest, std::abs(of_tube[pixel] - of_pipe[pixel])) : largest;
         }
-        std::cout << precision << ": " << n_both << " pixels of both, " << n_one << " of one, depths differ by " << largest << '\n';
+        std::cout << precision << ": " << n_both << " pixels of both, " << n_one << " of one, depths differ by " << largest
+                  << '\n';
         CHECK(n_both > 400);
         // Balls close the tube at the ends, where the cylinder is open and shows its inside.
         CHECK(n_one < 20);
@@ -93,7 +95,7 @@ TEST_CASE("Streamlines come as arrays, with values at their points") {
     CHECK(lines.ends[1] == ELVIS_LINE_NO_ELEMENT);
     CHECK(lines.ends[0] == ELVIS_LINE_LEFT_VOLUME);
     for (std::size_t point = 0; point < lines.times.size(); ++point) {
-        const double *const x = &lines.positions[3 * point];
+        const double* const x = &lines.positions[3 * point];
         CHECK(lines.values[2 * point] == Approx(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).margin(1e-12));
         CHECK(lines.values[2 * point + 1] == Approx(2 * x[0]).margin(1e-12));
     }

@@ -136,11 +136,16 @@ PartFiles write_part(const WholeMesh& whole, const std::vector<int>& part_of, in
         vertices << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
     }
     std::ostringstream mesh;
-    mesh << "MFEM mesh " << (with_groups ? "v1.2" : "v1.0") << "\n\ndimension\n3\n\nelements\n" << files.elements.size() << '\n'
-         << elements.str() << "\nboundary\n" << n_boundary << '\n' << boundary.str() << "\nvertices\n" << files.vertices.size()
-         << "\n3\n" << vertices.str();
+    mesh << "MFEM mesh " << (with_groups ? "v1.2" : "v1.0") << "\n\ndimension\n3\n\nelements\n"
+         << files.elements.size() << '\n'
+         << elements.str() << "\nboundary\n"
+         << n_boundary << '\n'
+         << boundary.str() << "\nvertices\n"
+         << files.vertices.size() << "\n3\n"
+         << vertices.str();
     if (with_groups) {
-        mesh << "\nmfem_serial_mesh_end\n\ncommunication_groups\nnumber_of_groups 2\n\n# number of entities in each group\n1 0\n2 0 1"
+        mesh << "\nmfem_serial_mesh_end\n\ncommunication_groups\nnumber_of_groups 2\n\n# number of entities in each group\n1 "
+                "0\n2 0 1"
                 "\n\ntotal_shared_vertices 1\n\n# group 1\nshared_vertices 1\n0\n\nmfem_mesh_end\n";
     }
     files.mesh = mesh.str();

@@ -51,9 +51,7 @@ std::shared_ptr<ArrayVolume> random_volume(Points& points) {
     description.fields = {field("u", 3), field("v", 3), field("p", 1)};
     description.times = {0, 1};
     auto volume = std::make_shared<ArrayVolume>(description, std::vector<Face>());
-    const auto fill = [&](std::span<double> numbers) {
-        std::ranges::generate(numbers, [&] { return points.number(); });
-    };
+    const auto fill = [&](std::span<double> numbers) { std::ranges::generate(numbers, [&] { return points.number(); }); };
     for (std::size_t of = 0; of < 2; ++of) {
         fill(volume->geometry(of));
         for (std::size_t index = 0; index < 3; ++index) {
@@ -137,6 +135,5 @@ TEST_CASE("What is no displacement is refused") {
     }
     Description mapped = volume->description();
     mapped.fields[1].transform = Transform::covariant;
-    CHECK_THROWS_WITH(WarpedVolume(std::make_shared<ArrayVolume>(mapped, std::vector<Face>()), {}),
-                      Catch::Contains("Piola"));
+    CHECK_THROWS_WITH(WarpedVolume(std::make_shared<ArrayVolume>(mapped, std::vector<Face>()), {}), Catch::Contains("Piola"));
 }

@@ -6,8 +6,8 @@
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
-#include <apps/elvis/warp_option.hpp>
 #include <apps/elvis/render/output_endings.hpp>
+#include <apps/elvis/warp_option.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>

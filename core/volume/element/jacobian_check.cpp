@@ -35,7 +35,9 @@ std::vector<double> sample_points(elvis_shape shape) {
 
 /** In two dimensions of the first two rows and columns. */
 double determinant(const double* j, bool is_flat) {
-    return is_flat ? j[0] * j[4] - j[1] * j[3] : j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) + j[2] * (j[3] * j[7] - j[4] * j[6]);
+    return is_flat
+               ? j[0] * j[4] - j[1] * j[3]
+               : j[0] * (j[4] * j[8] - j[5] * j[7]) - j[1] * (j[3] * j[8] - j[5] * j[6]) + j[2] * (j[3] * j[7] - j[4] * j[6]);
 }
 
 JacobianCheck sample(const RuntimeVolume& volume, std::uint64_t element, const std::vector<double>& xi,
@@ -95,8 +97,9 @@ JacobianReport check_jacobians(const RuntimeVolume& volume, double tolerance, co
             control->progress(static_cast<double>(first) / static_cast<double>(volume.n_elements()), "Jacobians");
         }
         checks.assign(std::min(block, volume.n_elements() - first), {});
-        const elvis_certainty certainty =
-            volume.has_jacobian_checks() && volume.dimension() == 3 ? volume.check_jacobians(first, tolerance, checks) : sample(volume, first, checks);
+        const elvis_certainty certainty = volume.has_jacobian_checks() && volume.dimension() == 3
+                                              ? volume.check_jacobians(first, tolerance, checks)
+                                              : sample(volume, first, checks);
         report.certainty = std::max(report.certainty, certainty);
         for (std::uint64_t index = 0; index < checks.size(); ++index) {
             const JacobianCheck& check = checks[index];

@@ -171,7 +171,8 @@ public:
         const Type type = find(variable).type;
         return type == Type::float32 ? 24 : type == Type::float64 ? 53 : static_cast<unsigned>(8 * n_bytes(type));
     }
-    void read(const std::string& variable, const Extents& start, const Extents& count, std::span<double> numbers) const override {
+    void read(const std::string& variable, const Extents& start, const Extents& count,
+              std::span<double> numbers) const override {
         read_box(variable, start, count, numbers);
     }
     void read(const std::string& variable, const Extents& start, const Extents& count,
@@ -216,7 +217,8 @@ private:
     void read_header(Header& header) {
         std::array<char, 4> magic{};
         header.bytes(magic.data(), magic.size());
-        const bool is_known = magic[0] == 'C' && magic[1] == 'D' && magic[2] == 'F' && (magic[3] == 1 || magic[3] == 2 || magic[3] == 5);
+        const bool is_known =
+            magic[0] == 'C' && magic[1] == 'D' && magic[2] == 'F' && (magic[3] == 1 || magic[3] == 2 || magic[3] == 5);
         if (!is_known) {
             header.fail("this is no netCDF file");
         }

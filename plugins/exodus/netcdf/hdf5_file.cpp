@@ -40,7 +40,8 @@ public:
     bool has(const std::string& variable) const override { return m_file.has(variable); }
     Extents shape(const std::string& variable) const override { return dataset(variable).shape(); }
     unsigned mantissa_bits(const std::string& variable) const override { return dataset(variable).mantissa_bits({}); }
-    void read(const std::string& variable, const Extents& start, const Extents& count, std::span<double> numbers) const override {
+    void read(const std::string& variable, const Extents& start, const Extents& count,
+              std::span<double> numbers) const override {
         const elvis::hdf5::Dataset found = dataset(variable);
         check_box(variable, found.shape(), start, count, numbers.size());
         if (!numbers.empty()) {

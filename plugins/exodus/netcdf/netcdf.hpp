@@ -30,7 +30,8 @@ public:
     /** Significant bits of a variable's numbers. */
     virtual unsigned mantissa_bits(const std::string& variable) const = 0;
     /** The box that begins at `start` and is `count` large, last index fastest; as many numbers as it holds. */
-    virtual void read(const std::string& variable, const Extents& start, const Extents& count, std::span<double> numbers) const = 0;
+    virtual void read(const std::string& variable, const Extents& start, const Extents& count,
+                      std::span<double> numbers) const = 0;
     virtual void read(const std::string& variable, const Extents& start, const Extents& count,
                       std::span<std::int64_t> numbers) const = 0;
     /** Rows of a variable of characters, or its only row, without zeros and blanks at their ends. */

@@ -1,7 +1,7 @@
 /**
  * @file answers.h
- * What is asked of data without a picture: integrals, what a straight line meets, and streamlines. Rules and threads are those of elvis.h.
- * Everything is evaluated in double precision, in the true basis on the true geometry.
+ * What is asked of data without a picture: integrals, what a straight line meets, and streamlines. Rules and threads are those
+ * of elvis.h. Everything is evaluated in double precision, in the true basis on the true geometry.
  *
  *     elvis_integration wanted = {.struct_size = sizeof wanted, .domain = ELVIS_DOMAIN_BOUNDARY, .field = "u", .is_flux = 1};
  *     elvis_integral flux = {.struct_size = sizeof flux};
