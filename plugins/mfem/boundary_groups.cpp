@@ -39,6 +39,7 @@ BoundaryGroups::BoundaryGroups(const Mesh& mesh, const std::vector<bool>& is_lef
         group_of[attribute] = static_cast<std::int32_t>(found - m_names.begin());
         if (found == m_names.end()) {
             m_names.push_back(name);
+            m_attributes.push_back(attribute);
         }
     }
     for (const BoundaryElement& element : boundary) {

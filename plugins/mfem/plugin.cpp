@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 namespace {
@@ -138,18 +139,25 @@ private:
         m_parts.push_back(std::move(part));
     }
 
-    /** Groups of all parts, by name. */
+    /** Groups of all parts, by name, their attributes ascending. */
     void add_groups() {
         const std::vector<std::vector<bool>> shared = shared_faces(m_parts);
+        std::map<int, std::string> by_attribute;
         for (std::size_t part = 0; part < m_parts.size(); ++part) {
-            m_part_groups.emplace_back(m_parts[part]->mesh(), shared[part]);
-            std::vector<std::int32_t>& groups = m_group_of.emplace_back();
-            for (const std::string& name : m_part_groups.back().names()) {
-                const auto found = std::ranges::find(m_groups, name);
-                groups.push_back(static_cast<std::int32_t>(found - m_groups.begin()));
-                if (found == m_groups.end()) {
-                    m_groups.push_back(name);
-                }
+            const BoundaryGroups& groups = m_part_groups.emplace_back(m_parts[part]->mesh(), shared[part]);
+            for (std::size_t group = 0; group < groups.names().size(); ++group) {
+                by_attribute.try_emplace(groups.attributes()[group], groups.names()[group]);
+            }
+        }
+        for (const auto& [attribute, name] : by_attribute) {
+            if (std::ranges::find(m_groups, name) == m_groups.end()) {
+                m_groups.push_back(name);
+            }
+        }
+        for (const BoundaryGroups& groups : m_part_groups) {
+            std::vector<std::int32_t>& numbers = m_group_of.emplace_back();
+            for (const std::string& name : groups.names()) {
+                numbers.push_back(static_cast<std::int32_t>(std::ranges::find(m_groups, name) - m_groups.begin()));
             }
         }
     }
