@@ -19,13 +19,11 @@ using elvis_cgns::Matrix;
 class Source : public elvis::api::ConverterSource {
 public:
     static std::uint32_t probe(const char* path) {
+        if (is_classic(path)) {
+            return names_blocks(path) ? 100 : 0;
+        }
         try {
-            if (!is_classic(path) && !elvis::hdf5::is_hdf5(path)) {
-                return 0;
-            }
-            const std::unique_ptr<const NetCdf> file = open_netcdf(path);
-            const bool is_exodus = file->dimension("num_dim") && file->dimension("num_nodes") && file->dimension("num_el_blk");
-            return is_exodus ? 100 : 0;
+            return elvis::hdf5::is_hdf5(path) && open_hdf5(path)->dimension("num_el_blk") ? 100 : 0;
         } catch (const elvis::api::Error&) {
             return 0;
         }

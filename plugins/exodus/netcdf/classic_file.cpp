@@ -416,6 +416,14 @@ bool is_classic(const std::string& path) {
            (magic[3] == 1 || magic[3] == 2 || magic[3] == 5);
 }
 
+bool names_blocks(const std::string& path) {
+    constexpr std::size_t most = 65536;
+    std::ifstream file(path, std::ios::binary);
+    std::string head(most, '\0');
+    file.read(head.data(), most);
+    return head.find("num_el_blk") != std::string::npos;
+}
+
 std::unique_ptr<const NetCdf> open_classic(const std::string& path) { return std::make_unique<ClassicFile>(path); }
 
 } // namespace elvis_exodus

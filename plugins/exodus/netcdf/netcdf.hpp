@@ -62,6 +62,9 @@ std::uint64_t n_numbers(const NetCdf& file, const std::string& variable, const E
 /** Whether a file begins as netCDF's own format does (classic, 64-bit offsets, 64-bit data). */
 bool is_classic(const std::string& path);
 
+/** Whether the beginning of a classic file has the name of a dimension that all Exodus II files have. */
+bool names_blocks(const std::string& path);
+
 /** A classic file, or netCDF-4, which is HDF5. */
 std::unique_ptr<const NetCdf> open_netcdf(const std::string& path);
 /** See classic_file.cpp and hdf5_file.cpp. */
