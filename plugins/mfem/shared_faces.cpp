@@ -78,8 +78,7 @@ public:
         for (int neighbour = 0; neighbour < 27; ++neighbour) {
             const Cell near{own[0] + neighbour % 3 - 1, own[1] + neighbour / 3 % 3 - 1, own[2] + neighbour / 9 - 1};
             const auto [first, last] = m_middles.equal_range(near);
-            const auto found =
-                std::find_if(first, last, [&](const auto& entry) { return entry.second.part != middle.part; });
+            const auto found = std::find_if(first, last, [&](const auto& entry) { return entry.second.part != middle.part; });
             if (found != last) {
                 return &found->second;
             }
