@@ -12,7 +12,7 @@
 namespace elvis::oracle {
 namespace {
 
-/** A torus with lines that are looked for in whole pixels only, so that many stay open, and an isosurface. */
+/** A sphere with lines that are looked for in quarters of pixels only, so that many stay open, and isosurfaces. */
 FrameRequest lines_and_isosurface() {
     FrameRequest request;
     request.width = 90;
@@ -21,15 +21,15 @@ FrameRequest lines_and_isosurface() {
     request.camera.look_at = {0, 0, 0};
     request.camera.up = {0, 0, 1};
     request.camera.field_of_view = 45;
-    Surface torus, middle;
-    torus.geometry = Sphere{{0.1, 0, 0.2}, 0.7};
-    torus.colors.points = {{0, {0, 0, 1}}, {3, {1, 0, 0}}};
-    torus.contours = Contours{{0.2, 0.3, 0.4, 0.5, 0.6, 0.7}, {1, std::array<double, 3>{0, 0, 0}, {}}};
-    torus.mesh_lines.emplace();
-    torus.subdivisions = 0;
-    middle.geometry = Isosurfaces{.values = {1.4}};
-    middle.colors = torus.colors;
-    request.surfaces = {torus, middle};
+    Surface sphere, levels;
+    sphere.geometry = Sphere{{0.1, 0, 0.2}, 0.7};
+    sphere.colors.points = {{-1, {0, 0, 1}}, {1, {1, 0, 0}}};
+    sphere.contours = Contours{{-0.9, -0.6, -0.3, 0, 0.3, 0.6, 0.9}, {1, std::array<double, 3>{0, 0, 0}, {}}};
+    sphere.mesh_lines.emplace();
+    sphere.subdivisions = 1;
+    levels.geometry = Isosurfaces{.values = {-0.9, 0.9}};
+    levels.colors = sphere.colors;
+    request.surfaces = {sphere, levels};
     return request;
 }
 
@@ -38,7 +38,7 @@ FrameRequest lines_and_isosurface() {
 TEST_CASE("Pixels are counted by their flags, and what is decided is not undecided") {
     const TemporaryFile file("mixed.h5");
     generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "order": 3, "geometry_order": 2,)"
-             R"( "field": "sphere"})",
+             R"( "field": "waves"})",
              file.path());
     const RuntimeVolume volume = open_volume(file.path());
     Renderer renderer(test::device(), volume, Precision::float32);
