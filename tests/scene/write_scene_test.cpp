@@ -99,7 +99,14 @@ const std::vector<std::string>& documents() {
             "animation": {"time_steps": "8:2:3",
                           "key_frames": [{"frame": 0}, {"frame": 5, "eye": [1.0, 2.0, 3.0], "look_at": [0.0, 1.0, 0.0], "up": [0.0, 0.0, 1.0],
                                                         "field_of_view": 30.0, "height": 2.0}],
-                          "frames_a_second": 25.0}})json"};
+                          "frames_a_second": 25.0}})json",
+        R"json({"version": 1, "warp": {"field": "u", "imaginary": "v", "factor": 2.5, "phase": 30.0},
+            "image": {"size": [10, 20], "background": [1.0, 1.0, 1.0, 1.0]},
+            "surfaces": [
+              {"type": "streamlines", "flow": "curl(u)", "seeds": [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]], "direction": "backward", "length": 3.0,
+               "tolerance": 1e-6, "radius": 0.01, "color": [0.9, 0.5, 0.2]},
+              {"type": "streamlines", "flow": "u", "seed_grid": 7, "direction": "both", "tolerance": 1e-9, "field": "p"}],
+            "animation": {"phases": 12, "frames_a_second": 25.0}})json"};
     return list;
 }
 
