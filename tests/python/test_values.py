@@ -78,6 +78,30 @@ class Values(WithVolume):
                     self.assertAlmostEqual(side.values["p"], x * x * y + z, delta=1e-12)
                     self.assertEqual(side.values["velocity"].shape, (3,))
 
+    def test_streamlines_are_tangent_to_the_field(self):
+        lines = self.volume.streamlines("y*grad(x) - x*grad(y)", [[0.5, 0, 0.1], [0, 0.3, -0.2], [5, 0, 0]], ["p", "velocity"], direction="forward",
+                                        length=1)
+        self.assertEqual([line.end for line in lines], ["length", "length", "no element"])
+        self.assertEqual(len(lines[2].positions), 0)
+        for line, radius in zip(lines, (0.5, 0.3)):
+            np.testing.assert_allclose(np.hypot(line.positions[:, 0], line.positions[:, 1]), radius, atol=1e-6)
+            self.assertAlmostEqual(line.arc_lengths[-1], 1, delta=1e-9)
+            x, y, z = line.positions.T
+            np.testing.assert_allclose(line.values["p"], x * x * y + z, atol=1e-12)
+            self.assertEqual(line.values["velocity"].shape, (len(x), 3))
+        self.assertRaises(elvis.Error, lambda: self.volume.streamlines("p", [0, 0, 0]))
+
+    def test_a_warp_displaces_points_and_takes_values_along(self):
+        point = np.array([0.3, -0.2, 0.4])
+        before = self.volume.probe(point, ["velocity", "p"])
+        warped = self.volume.warp("velocity", 0.1)
+        after = warped.probe(point + 0.1 * before["velocity"][0], ["velocity", "p"])
+        self.assertAlmostEqual(after["p"][0], before["p"][0], delta=1e-12)
+        self.assertNotAlmostEqual(warped.integrate().value, self.volume.integrate().value, places=6)
+        picture = warped.render(width=32, height=24)
+        self.assertEqual(picture.color.shape[:2], (24, 32))
+        self.assertRaises(elvis.Error, lambda: self.volume.warp("p"))
+
     def test_a_foreign_file_is_opened_as_it_is(self):
         for files in (self.path("input.json"), [self.path("input.json")]):
             self.assertEqual(elvis.open(files).n_elements, self.volume.n_elements)
