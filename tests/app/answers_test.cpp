@@ -35,8 +35,8 @@ TEST_CASE("samples along a line are the field's, and what lies outside is empty"
     CHECK_THAT(done.out, Catch::Contains("401 points written to line.csv") && Catch::Contains("elements begin or end at"));
     const auto rows = rows_of(place.read("line.csv"));
     REQUIRE(rows.size() == 402);
-    CHECK(rows[0] == std::vector<std::string>{"arc_length", "x", "y", "z", "element", "sphere", "d(sphere,x)", "d(sphere,y)",
-                                              "d(sphere,z)"});
+    CHECK_THAT(place.read("line.csv"),
+               Catch::StartsWith("arc_length,x,y,z,element,sphere,\"d(sphere,x)\",\"d(sphere,y)\",\"d(sphere,z)\"\n"));
     double largest = 0;
     std::size_t n_inside = 0;
     for (std::size_t row = 1; row < rows.size(); ++row) {
@@ -113,7 +113,7 @@ TEST_CASE("what cannot be answered is said, and no file is left") {
     fails("sample ball.h5 --line 0,0,0 1,0 -o a.csv", 2, "--line");
     fails("sample ball.h5 --line 0,0,0 1,0,0 -o a.vti", 2, "--grid");
     fails("sample ball.h5 --grid 4x4x4 -o a.svg", 2, "--line");
-    fails("sample ball.h5 --grid 4x4 -o a.csv", 2, "has 2 numbers");
+    fails("sample ball.h5 --grid 4 -o a.csv", 2, "4");
     fails("sample ball.h5 --grid 4x0x4 -o a.csv", 2, "4x0x4");
     fails("sample ball.h5 --cut-plane 0,0,0,1 -o a.csv", 2, "length zero");
     fails("sample ball.h5 --cut-plane 0,0,1,9 -o a.csv", 2, "does not meet");
@@ -125,9 +125,9 @@ TEST_CASE("what cannot be answered is said, and no file is left") {
     fails("integrate ball.h5 --boundary --isosurface 0.1", 2, "takes one of");
     fails("integrate ball.h5 --isosurface 0.1", 2, "--isosurface-field");
     fails("integrate ball.h5 --flux --boundary", 2, "needs --field");
-    fails("integrate ball.h5 --flux --field velocity", 2, "not through a volume");
+    fails("integrate ball.h5 --flux --field velocity", 1, "not through a volume");
     fails("integrate ball.h5 --boundary wall", 1, "wall");
-    fails("integrate ball.h5 --time-step 4", 2, "time step");
+    fails("integrate ball.h5 --time-step 4", 1, "time step");
     fails("extrema ball.h5 --field nothing", 1, "nothing");
     CHECK_FALSE(fs::exists(place.path("a.csv")));
 }
