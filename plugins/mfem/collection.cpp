@@ -109,7 +109,7 @@ Collection parse_collection(std::string_view name) {
                           .basis = Basis::closed_uniform,
                           .is_first_cubic = name == "Cubic"};
     }
-    const std::size_t place = std::min(name.find("_2D_P"), name.find("_3D_P"));
+    const std::size_t place = std::min({name.find("_1D_P"), name.find("_2D_P"), name.find("_3D_P")});
     const auto prefix = parse_prefix(name.substr(0, place));
     if (place == std::string_view::npos || !prefix) {
         throw std::invalid_argument(shown +

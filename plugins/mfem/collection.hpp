@@ -25,7 +25,7 @@ enum class Basis : std::uint8_t {
 
 struct Collection {
     Family family = Family::h1;
-    /** 2 or 3; 0 fits any mesh. */
+    /** 1, 2 or 3; 0 fits any mesh. */
     int dimension = 0;
     /** The number after P: polynomial order of H1 and L2; Nedelec spaces of order p lie in order p, Raviart-Thomas in p + 1. */
     int order = 1;

@@ -95,12 +95,9 @@ Grid read_grid(Text& text) {
 }
 
 const Division& check(const Text& text, Grid& grid) {
-    if (grid.type == "segment") {
-        text.fail("this is a mesh of segments, of dimension 1, which is not supported; those of dimension 2 and 3 are");
-    }
     const auto found = divisions.find(grid.type);
     if (found == divisions.end()) {
-        text.fail("the type " + shown(grid.type) + " is none of tri, quad, tet, hex, wedge, pyramid");
+        text.fail("the type " + shown(grid.type) + " is none of segment, tri, quad, tet, hex, wedge, pyramid");
     }
     const auto n_axes = static_cast<std::size_t>(dimension(found->second.geometry));
     // One after the other, as the product of three counts may be too large for any integer.
@@ -121,6 +118,27 @@ const Division& check(const Text& text, Grid& grid) {
         grid.counts[2] = 0;
     }
     return found->second;
+}
+
+/** Make1D. */
+Mesh segments_of(const Text& text, const Grid& grid) {
+    if (grid.counts[0] == 0 || grid.sizes[0] == 0 || grid.counts[0] > max_items) {
+        text.fail("the number or the size in x is missing or too large");
+    }
+    Mesh mesh;
+    mesh.dimension = mesh.space_dimension = 1;
+    mesh.n_vertices = static_cast<std::size_t>(grid.counts[0]) + 1;
+    for (int i = 0; i <= grid.counts[0]; ++i) {
+        mesh.coordinates.insert(mesh.coordinates.end(), {grid.sizes[0] * i / grid.counts[0], 0, 0});
+    }
+    for (int i = 0; i < grid.counts[0]; ++i) {
+        MeshElement& segment = mesh.elements.emplace_back();
+        segment.vertices[0] = i;
+        segment.vertices[1] = i + 1;
+    }
+    mesh.boundary.push_back({1, {0, -1, -1, -1}});
+    mesh.boundary.push_back({2, {grid.counts[0], -1, -1, -1}});
+    return mesh;
 }
 
 class Maker {
@@ -258,6 +276,9 @@ private:
 
 Mesh read_inline(Text& text) {
     Grid grid = read_grid(text);
+    if (grid.type == "segment") {
+        return segments_of(text, grid);
+    }
     const Division& division = check(text, grid);
     return Maker(grid, division)();
 }

@@ -1,5 +1,6 @@
 #include "mesh.hpp"
 
+#include "band.hpp"
 #include "file_content.hpp"
 #include "text.hpp"
 
@@ -8,6 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <stdexcept>
+#include <utility>
 
 namespace elvis_mfem {
 
@@ -74,15 +78,20 @@ void skip_communication(Text& text) {
 
 Mesh read_conforming(Text& text) {
     Mesh mesh;
-    mesh.dimension = read_dimension(text);
+    mesh.dimension = read_dimension(text, 1);
     text.expect("elements");
-    const std::size_t n_elements = text.count("the number of elements", 10);
+    const std::size_t n_elements = text.count("the number of elements", mesh.dimension == 1 ? 8 : 10);
     mesh.elements.reserve(n_elements);
     for (std::size_t index = 0; index < n_elements; ++index) {
         MeshElement element;
         element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
-        element.geometry = read_geometry(text, mesh.dimension);
-        for (std::size_t corner = 0; corner < vertices(element.geometry).size(); ++corner) {
+        if (mesh.dimension > 1) {
+            element.geometry = read_geometry(text, mesh.dimension);
+        } else {
+            text.integer("the geometry of a segment", 1, 1);
+        }
+        const std::size_t n_corners = mesh.dimension > 1 ? vertices(element.geometry).size() : 2;
+        for (std::size_t corner = 0; corner < n_corners; ++corner) {
             element.vertices[corner] = static_cast<std::int32_t>(text.integer("a vertex", 0, most));
         }
         mesh.elements.push_back(element);
@@ -91,7 +100,7 @@ Mesh read_conforming(Text& text) {
         read_sets(text);
     }
     text.expect("boundary");
-    const std::size_t n_boundary = text.count("the number of boundary elements", 8);
+    const std::size_t n_boundary = text.count("the number of boundary elements", mesh.dimension == 1 ? 6 : 8);
     mesh.boundary.reserve(n_boundary);
     for (std::size_t index = 0; index < n_boundary; ++index) {
         mesh.boundary.push_back(read_boundary_element(text, mesh.dimension, most));
@@ -114,11 +123,12 @@ bool is_mesh(const char* path) {
     return head.starts_with(mark) && head.substr(0, head.find('\n')).find("mesh") != std::string::npos;
 }
 
-int read_dimension(Text& text) {
+int read_dimension(Text& text, int least) {
     text.expect("dimension");
     const auto dimension = static_cast<int>(text.integer("the dimension", 1, 3));
-    if (dimension == 1) {
-        text.fail("this is a mesh of segments, of dimension 1, which is not supported; those of dimension 2 and 3 are");
+    if (dimension < least) {
+        text.fail("this is a mesh of segments, of dimension 1, which is supported in 'MFEM mesh', INLINE, and NURBS of one "
+                  "span each");
     }
     return dimension;
 }
@@ -131,9 +141,9 @@ Geometry read_geometry(Text& text, int dimension) {
 BoundaryElement read_boundary_element(Text& text, int dimension, std::int64_t n_vertices) {
     BoundaryElement element;
     element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
-    // Segments are geometry 1, triangles 2, squares 3.
+    // Points are geometry 0, segments 1, triangles 2, squares 3.
     const auto n_corners =
-        1 + text.integer("the geometry of a boundary element", dimension == 2 ? 1 : 2, dimension == 2 ? 1 : 3);
+        1 + text.integer("the geometry of a boundary element", dimension - 1, dimension == 3 ? 3 : dimension - 1);
     for (std::size_t corner = 0; corner < static_cast<std::size_t>(n_corners); ++corner) {
         element.vertices[corner] = static_cast<std::int32_t>(text.integer("a vertex", 0, n_vertices - 1));
     }
@@ -170,7 +180,7 @@ void take_nodes(Text& text, Mesh& mesh) {
     mesh.nodes = read_grid_function(text);
     const int n_components = mesh.nodes->n_components;
     if (mesh.nodes->collection.is_vector() || n_components < mesh.dimension || n_components > 3) {
-        text.fail(std::string("the nodes of a mesh must have ") + (mesh.dimension == 2 ? "two or " : "") +
+        text.fail(std::string("the nodes of a mesh must have ") + (mesh.dimension < 3 ? "two or " : "") +
                   "three components in an H1 or L2 space");
     }
     mesh.space_dimension = n_components;
@@ -179,6 +189,18 @@ void take_nodes(Text& text, Mesh& mesh) {
     }
     mesh.coordinates.clear();
 }
+
+namespace {
+
+Mesh as_band(Mesh curve, const Text& text) {
+    try {
+        return band_of(std::move(curve));
+    } catch (const std::invalid_argument& error) {
+        text.fail(error.what());
+    }
+}
+
+} // namespace
 
 Mesh read_mesh(const std::string& path) {
     Text text(path);
@@ -199,7 +221,8 @@ Mesh read_mesh(const std::string& path) {
     } else if (version == "NURBS mesh v1.0" || version == "NURBS mesh v1.1") {
         mesh = read_nurbs(text);
     } else if (version == "INLINE mesh v1.0") {
-        return read_inline(text);
+        mesh = read_inline(text);
+        return mesh.dimension == 1 ? as_band(std::move(mesh), text) : mesh;
     } else {
         const std::string hint = version == "mesh v1.1" ? " (let MFEM write it again, as 'MFEM NC mesh v1.0')"
                                  : version.find("NURBS") != std::string::npos ? " (let MFEM convert it with Mesh::SetCurvature)"
@@ -215,6 +238,11 @@ Mesh read_mesh(const std::string& path) {
     text.accept("mfem_mesh_end");
     text.accept("mfem_serial_mesh_end");
     skip_communication(text);
+    if (mesh.dimension == 1) {
+        mesh.solution = is_stream ? std::optional(read_grid_function(text)) : std::nullopt;
+        mesh.digits = text.max_digits();
+        return as_band(std::move(mesh), text);
+    }
     if (is_stream) {
         // Commands for GLVis may follow.
         mesh.solution = read_grid_function(text);

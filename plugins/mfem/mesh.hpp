@@ -18,6 +18,7 @@ namespace elvis_mfem {
 
 class Text;
 struct NurbsPatches;
+struct Segments;
 
 struct MeshElement {
     int attribute = 1;
@@ -49,7 +50,7 @@ struct GridFunction {
 };
 
 struct Mesh {
-    /** Of the elements, 2 or 3. */
+    /** Of the elements, 2 or 3; 1 before a curve becomes a band. */
     int dimension = 3;
     /** Coordinates of a point in the file; more than the dimension in surfaces in space. */
     int space_dimension = 3;
@@ -64,6 +65,8 @@ struct Mesh {
     std::optional<GridFunction> solution;
     /** Of NURBS meshes. */
     std::shared_ptr<const NurbsPatches> nurbs;
+    /** Of bands, which meshes of segments are read as (band.hpp). */
+    std::shared_ptr<const Segments> segments;
     /** Most significant decimal digits of the coordinates. */
     int digits = 0;
 };
@@ -90,7 +93,7 @@ GridFunction read_grid_function(Text& text);
 GridFunction read_solution(const std::string& path, int* digits);
 
 /** Parts that both kinds of meshes share. */
-int read_dimension(Text& text);
+int read_dimension(Text& text, int least = 2);
 /** The geometry of an element of that dimension. */
 Geometry read_geometry(Text& text, int dimension);
 BoundaryElement read_boundary_element(Text& text, int dimension, std::int64_t n_vertices);

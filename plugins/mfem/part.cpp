@@ -1,5 +1,6 @@
 #include "part.hpp"
 
+#include "band.hpp"
 #include "field.hpp"
 #include "nurbs/nurbs_function.hpp"
 
@@ -44,7 +45,7 @@ void Part::read_step(const elvis::api::Host& host, const SavedCycle& cycle, std:
         host.check_cancelled();
         const std::string& path = cycle.fields[index].paths[part];
         int digits = 0;
-        GridFunction function = read_solution(path, &digits);
+        GridFunction function = on_mesh(read_solution(path, &digits), path);
         m_digits = std::max(m_digits, digits);
         check_space(index, function, path);
         functions.push_back(make_function(cycle.fields[index].name, path, std::move(function)));
@@ -53,6 +54,14 @@ void Part::read_step(const elvis::api::Host& host, const SavedCycle& cycle, std:
         functions.push_back(std::make_unique<AttributeFunction>(m_mesh));
     }
     m_steps.push_back(std::move(functions));
+}
+
+GridFunction Part::on_mesh(GridFunction function, const std::string& path) const {
+    try {
+        return m_mesh.segments ? on_band(function, *m_mesh.segments) : std::move(function);
+    } catch (const std::invalid_argument& error) {
+        throw elvis::api::Error(ELVIS_ERROR_FORMAT, path, error.what());
+    }
 }
 
 /** Fields keep their space over time. */

@@ -37,6 +37,8 @@ private:
     using Functions = std::vector<std::unique_ptr<const ElementFunction>>;
 
     void read_step(const elvis::api::Host& host, const SavedCycle& cycle, std::size_t part);
+    /** As it is, or, of a curve, on the band that the mesh is read as. */
+    GridFunction on_mesh(GridFunction function, const std::string& path) const;
     void check_space(std::size_t field, const GridFunction& function, const std::string& path);
     void check_dimension(const Collection& collection, const std::string& path) const;
     std::unique_ptr<const ElementFunction> make_function(std::string name, const std::string& path, GridFunction function);

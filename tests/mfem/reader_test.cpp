@@ -308,7 +308,7 @@ TEST_CASE("what cannot be read is refused with its place", "[mfem]") {
     CHECK_THAT(of_mesh("MFEM NC NURBS mesh v1.0\n"), Contains("line 1") && Contains("NURBS") && Contains("not supported"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "v1.3", "v1.1")), Contains("line 1") && Contains("not supported"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "dimension\n3", "dimension\n2")), Contains("line 8") && Contains("geometry"));
-    CHECK_THAT(of_mesh(replaced(two_cubes, "dimension\n3", "dimension\n1")), Contains("line 4") && Contains("segments"));
+    CHECK_THAT(of_mesh(replaced(two_cubes, "dimension\n3", "dimension\n1")), Contains("line 8") && Contains("geometry"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "elements\n2\n", "elements\n999999999\n")), Contains("line 7") && Contains("hold"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "elements\n2\n", "elements\n-1\n")), Contains("line 7"));
     CHECK_THAT(of_mesh(replaced(two_cubes, "2 5 1 2 5", "2 5 1 2 55")), Contains("element 1") && Contains("vertex 55"));
@@ -323,7 +323,7 @@ TEST_CASE("what cannot be read is refused with its place", "[mfem]") {
     CHECK_THAT(of_solution(space_text("L2_3D_P0") + "1"), Contains("bad.gf") && Contains("1 values") && Contains("2 degrees"));
     CHECK_THAT(of_solution(space_text("L2_3D_P0") + "1 two"), Contains("line 6"));
     CHECK_THAT(of_solution(space_text("L2Int_3D_P0") + "1 2"), Contains("line 2") && Contains("densities"));
-    CHECK_THAT(of_solution(space_text("H1_1D_P2") + "1 2"), Contains("line 2") && Contains("'H1_1D_P2'"));
+    CHECK_THAT(of_solution(space_text("H1_4D_P2") + "1 2"), Contains("line 2") && Contains("'H1_4D_P2'"));
     CHECK_THAT(of_solution(space_text("H1_2D_P2") + "1 2"), Contains("bad.gf") && Contains("dimension 2"));
     CHECK_THAT(of_solution(space_text("H1_3D_P99") + "1 2"), Contains("0") && Contains("20"));
     CHECK_THAT(of_solution(space_text("NURBS2") + "1 2"), Contains("NURBS"));

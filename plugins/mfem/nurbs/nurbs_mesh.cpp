@@ -28,7 +28,7 @@ struct PatchEdge {
 
 class Reader {
 public:
-    explicit Reader(Text& text) : m_text(text) {}
+    Reader(Text& text, int dimension) : m_text(text) { m_patches.dimension = dimension; }
 
     Mesh operator()() {
         read_topology();
@@ -54,7 +54,6 @@ private:
     std::size_t n_axes() const { return static_cast<std::size_t>(m_patches.dimension); }
 
     void read_topology() {
-        m_patches.dimension = read_dimension(m_text);
         m_text.expect("elements");
         const std::size_t n_patches = m_text.count("the number of patches", 10);
         for (std::size_t patch = 0; patch < n_patches; ++patch) {
@@ -359,8 +358,66 @@ private:
     Mesh m_result;
 };
 
+/** From behind the dimension, 1: segments of one span each, with equal weights, which are Bernstein polynomials. */
+Mesh read_segments(Text& text) {
+    Mesh mesh;
+    mesh.dimension = 1;
+    text.expect("elements");
+    for (std::size_t n = text.count("the number of segments", 8); n > 0; --n) {
+        MeshElement& element = mesh.elements.emplace_back();
+        element.attribute = static_cast<int>(text.integer("an attribute", 0, most));
+        text.integer("the geometry of a segment", 1, 1);
+        element.vertices[0] = static_cast<std::int32_t>(text.integer("a vertex", 0, most));
+        element.vertices[1] = static_cast<std::int32_t>(text.integer("a vertex", 0, most));
+    }
+    text.expect("boundary");
+    for (std::size_t n = text.count("the number of boundary elements", 6); n > 0; --n) {
+        mesh.boundary.push_back(read_boundary_element(text, 1, most));
+    }
+    text.expect("edges");
+    for (std::size_t n = 3 * text.count("the number of edges", 6); n > 0; --n) {
+        text.integer("a knot vector or vertex of an edge", 0, most);
+    }
+    text.expect("vertices");
+    mesh.n_vertices = static_cast<std::size_t>(text.integer("the number of vertices", 1, most));
+    text.expect("knotvectors");
+    int order = 0;
+    for (std::size_t n = text.count("the number of knot vectors", 10); n > 0; --n) {
+        const KnotVector knots = read_knot_vector(text);
+        if (knots.spans().size() != 1 || (order != 0 && knots.order != order)) {
+            text.fail("NURBS segments of several spans, or of several orders, are not supported");
+        }
+        order = knots.order;
+    }
+    text.expect("weights");
+    const std::size_t n_points = mesh.n_vertices + mesh.elements.size() * static_cast<std::size_t>(std::max(1, order) - 1);
+    double first = 0;
+    for (std::size_t i = 0; i < n_points; ++i) {
+        const double weight = text.real("a weight");
+        first = i == 0 ? weight : first;
+        if (!(weight > 0) || weight != first) {
+            text.fail("NURBS segments with weights that differ are not supported");
+        }
+    }
+    for (const auto& element : mesh.elements) {
+        if (std::max(element.vertices[0], element.vertices[1]) >= static_cast<std::int32_t>(mesh.n_vertices)) {
+            text.fail("a segment has a vertex that does not exist");
+        }
+    }
+    mesh.nodes = read_grid_function(text);
+    if (mesh.nodes->nurbs_order != order) {
+        text.fail("the nodes of a NURBS mesh are not NURBS of the mesh's order");
+    }
+    mesh.nodes->nurbs_order = 0;
+    mesh.nodes->collection = {.family = Family::h1, .dimension = 1, .order = order, .basis = Basis::positive};
+    return mesh;
+}
+
 } // namespace
 
-Mesh read_nurbs(Text& text) { return Reader(text)(); }
+Mesh read_nurbs(Text& text) {
+    const int dimension = read_dimension(text, 1);
+    return dimension == 1 ? read_segments(text) : Reader(text, dimension)();
+}
 
 } // namespace elvis_mfem
