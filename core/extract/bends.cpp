@@ -92,6 +92,42 @@ std::vector<double> certified_bends(const RuntimeVolume& volume, const Expressio
     return bends;
 }
 
+bool PolynomialBend::can_bound(elvis_shape shape, unsigned degree) {
+    constexpr unsigned most_degree = 12;
+    const bool is_known =
+        shape == ELVIS_SHAPE_HEXAHEDRON || shape == ELVIS_SHAPE_PRISM || shape == ELVIS_SHAPE_TETRAHEDRON;
+    return is_known && degree <= most_degree;
+}
+
+PolynomialBend::PolynomialBend(elvis_shape shape, unsigned degree)
+    : m_derivatives(shape, std::array<std::uint32_t, 3>{std::max(2u, degree), std::max(2u, degree), std::max(2u, degree)}) {
+    const std::span<const double> nodes = m_derivatives.nodes();
+    for (std::size_t at = 0; at < nodes.size(); at += 3) {
+        m_nodes.push_back({nodes[at], nodes[at + 1], nodes[at + 2]});
+    }
+}
+
+double PolynomialBend::of(const SurfaceSampler& sampler, std::uint64_t element) const {
+    std::vector<double> numbers(m_derivatives.size());
+    const std::vector<SurfacePoint> found = sampler.at(element, m_nodes, {});
+    for (std::size_t node = 0; node < found.size(); ++node) {
+        numbers[node] = found[node].level.value;
+    }
+    m_derivatives.interpolate<1>(numbers.data());
+    m_derivatives.differentiate<1>(numbers.data());
+    // The derivatives are 11, 12, 13, 22, 23, 33, of which mixed ones count twice.
+    constexpr std::array<double, SecondDerivatives::n_derivatives> times{1, 2, 2, 1, 2, 1};
+    double largest = 0;
+    for (std::size_t coefficient = 0; coefficient < m_derivatives.n_coefficients(); ++coefficient) {
+        double sum = 0;
+        for (std::size_t derivative = 0; derivative < times.size(); ++derivative) {
+            sum += times[derivative] * std::abs(numbers[m_derivatives.derivative_at(derivative) + coefficient]);
+        }
+        largest = std::max(largest, sum);
+    }
+    return largest;
+}
+
 Bend sampled_bend(const SurfaceSampler& sampler, std::uint64_t element, elvis_shape shape, unsigned degree) {
     constexpr unsigned least_points = 4, most_points = 10;
     const ShapeLattice lattice(shape, std::clamp(degree + 2, least_points, most_points));

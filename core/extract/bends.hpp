@@ -6,6 +6,7 @@
 
 #include <core/extract/surface_sampler.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/volume/element/second_derivatives.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -17,7 +18,7 @@ namespace elvis {
 /** H >= sum over i, j of |d^2 f / dxi_i dxi_j| in an element. */
 struct Bend {
     double level = 0, contour = 0;
-    /** That of the level is the plugin's, and proven. Else it is from samples. */
+    /** That of the level is proven. Else it is from samples. */
     bool is_certified = false;
 };
 
@@ -27,6 +28,22 @@ struct Bend {
  */
 std::vector<double> certified_bends(const RuntimeVolume& volume, const Expression& expression, std::uint32_t time_step,
                                     std::span<const std::uint64_t> elements);
+
+/**
+ * Of polynomials of that degree, in elements of one shape: from their Bernstein form (core/volume/element/second_derivatives.hpp),
+ * whose coefficients are nowhere exceeded; but for rounding, certified.
+ */
+class PolynomialBend {
+public:
+    /** Not of pyramids, whose functions are rational; of no degree that would take long. */
+    static bool can_bound(elvis_shape shape, unsigned degree);
+    PolynomialBend(elvis_shape shape, unsigned degree);
+    double of(const SurfaceSampler& sampler, std::uint64_t element) const;
+
+private:
+    SecondDerivatives m_derivatives;
+    std::vector<Vector3> m_nodes;
+};
 
 /** From differences of slopes on a lattice of an element. The degree in each direction tells how fine. */
 Bend sampled_bend(const SurfaceSampler& sampler, std::uint64_t element, elvis_shape shape, unsigned degree);

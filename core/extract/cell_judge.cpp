@@ -62,6 +62,47 @@ struct LongestSide {
     }
 };
 
+/** Which side of its triangles the points of a cell are on. */
+class CellSides {
+public:
+    CellSides(const ElementCells& cells, const Cell& cell) : m_cells(cells), m_cell(cell) {
+        for (const CellTriangle& triangle : cells.triangles(cell)) {
+            const Triangle3 flat = flat_triangle(cells, triangle);
+            const Vector3 area = cross(minus(flat[1], flat[0]), minus(flat[2], flat[0]));
+            m_normal = plus(m_normal, cells.is_inverted() ? scaled(area, -1) : area);
+            m_middle = flat[0];
+        }
+        // Triangles without area have no side of their own.
+        m_has_plane = std::ranges::all_of(cell.corners, [&](std::uint32_t corner) {
+            return elvis::is_above(cells.points()[corner]) == is_above_plane(cells.points()[corner]);
+        });
+    }
+
+    bool is_above(const CellPoint& point) const { return m_has_plane ? is_above_plane(point) : linear_level(point) >= 0; }
+
+private:
+    bool is_above_plane(const CellPoint& point) const { return dot(minus(point.position, m_middle), m_normal) >= 0; }
+    /** Between the corners. */
+    double linear_level(const CellPoint& point) const {
+        const auto corner = [&](std::size_t i) -> const CellPoint& { return m_cells.points()[m_cell.corners[i]]; };
+        const Vector3 &origin = corner(0).xi, a = minus(corner(1).xi, origin), b = minus(corner(2).xi, origin),
+                      c = minus(corner(3).xi, origin), way = minus(point.xi, origin);
+        const double volume = dot(a, cross(b, c));
+        const std::array<double, 3> shares{dot(way, cross(b, c)) / volume, dot(a, cross(way, c)) / volume,
+                                           dot(a, cross(b, way)) / volume};
+        double level = corner(0).level.value;
+        for (std::size_t i = 0; i < 3; ++i) {
+            level += shares[i] * (corner(i + 1).level.value - corner(0).level.value);
+        }
+        return level;
+    }
+
+    const ElementCells& m_cells;
+    const Cell& m_cell;
+    Vector3 m_normal{}, m_middle{};
+    bool m_has_plane = false;
+};
+
 std::uint32_t faces_holding(const ElementCells& cells, std::uint32_t point) {
     return shape_faces(cells.shape()).holding(cells.points()[point].xi);
 }
@@ -149,23 +190,18 @@ bool CellJudge::is_clear(const ElementCells& cells, Corners corners, double bend
 /** A point of a cell is on another side than the cell's triangles say, and not because these are off by the tolerance. */
 bool CellJudge::is_unexpected(const ElementCells& cells, const Cell& cell, std::uint32_t point) const {
     const CellPoint& here = cells.points()[point];
-    if (here.level.value == 0) {
+    // Parts of the surface that come through a face by less than this are thinner than the tolerance.
+    if (here.level.value == 0 || here.reach < 0.5 * m_tolerance) {
         return false;
     }
     if (!cells.has_surface(cell)) {
         return is_above(here) != is_above(cells.points()[cell.corners[0]]);
     }
-    Vector3 normal{}, middle{};
     double distance = HUGE_VAL;
-    const std::vector<CellTriangle> triangles = cells.triangles(cell);
-    for (const CellTriangle& triangle : triangles) {
-        const Triangle3 flat = flat_triangle(cells, triangle);
-        normal = plus(normal, cross(minus(flat[1], flat[0]), minus(flat[2], flat[0])));
-        middle = plus(middle, scaled(plus(plus(flat[0], flat[1]), flat[2]), 1.0 / 3 / static_cast<double>(triangles.size())));
-        distance = std::min(distance, distance_to_triangle(here.position, flat));
+    for (const CellTriangle& triangle : cells.triangles(cell)) {
+        distance = std::min(distance, distance_to_triangle(here.position, flat_triangle(cells, triangle)));
     }
-    const double height = dot(minus(here.position, middle), normal) * (cells.is_inverted() ? -1 : 1);
-    return (height >= 0) != is_above(here) && distance > m_tolerance;
+    return distance > m_tolerance && CellSides(cells, cell).is_above(here) != is_above(here);
 }
 
 /**

@@ -176,32 +176,63 @@ private:
             }
             certified = certified_bends(m_volume, *m_sampler->level(), m_request.time_step, numbers);
         }
-        std::vector<unsigned> degrees;
-        for (std::uint32_t index = 0; index < m_volume.classes().size(); ++index) {
-            unsigned degree = 0;
-            for (const auto& function : {m_sampler->level(), m_sampler->contour()}) {
-                degree = function ? std::max(degree, polynomial_degree(*function, m_volume, index).value_or(unknown_degree))
-                                  : degree;
-            }
-            degrees.push_back(degree);
-        }
-        std::uint32_t element_class = 0;
+        ClassBends of_class;
+        std::uint32_t element_class = ~0u;
         for (std::size_t index = 0; index < elements.size(); ++index) {
             MeshElement& element = elements[index];
             m_control.check();
-            while (element.element >=
-                   m_volume.classes()[element_class].first_element + m_volume.classes()[element_class].n_elements) {
-                ++element_class;
+            const std::uint32_t its_class = class_of(element.element);
+            if (its_class != element_class) {
+                element_class = its_class;
+                of_class = class_bends(element_class);
             }
-            const bool is_certified = !certified.empty() && std::isfinite(certified[index]);
+            bool is_certified = !certified.empty() && std::isfinite(certified[index]);
+            double level = is_certified ? certified[index] : 0;
+            if (m_sampler->has_level() && !is_certified && of_class.polynomial) {
+                level = of_class.polynomial->of(*m_sampler, element.element);
+                is_certified = std::isfinite(level);
+            }
             if (m_sampler->has_contour() || (m_sampler->has_level() && !is_certified)) {
-                element.bend = sampled_bend(*m_sampler, element.element, element.shape, degrees[element_class]);
+                element.bend = sampled_bend(*m_sampler, element.element, element.shape, of_class.degree);
             }
             if (is_certified) {
-                element.bend.level = certified[index];
+                element.bend.level = level;
                 element.bend.is_certified = true;
             }
         }
+    }
+
+    /** What is known of functions in a class. */
+    struct ClassBends {
+        /** Of level and contours: the larger one, or what stands for it. */
+        unsigned degree = unknown_degree;
+        /** Of the level, where it is a polynomial. */
+        std::optional<PolynomialBend> polynomial;
+    };
+    ClassBends class_bends(std::uint32_t element_class) const {
+        ClassBends bends;
+        bends.degree = 0;
+        for (const auto& function : {m_sampler->level(), m_sampler->contour()}) {
+            if (function) {
+                bends.degree = std::max(
+                    bends.degree, polynomial_degree(*function, m_volume, element_class).value_or(unknown_degree));
+            }
+        }
+        if (m_sampler->has_level()) {
+            const elvis_shape shape = m_volume.classes()[element_class].shape;
+            const std::optional<unsigned> degree = polynomial_degree(*m_sampler->level(), m_volume, element_class);
+            if (degree && PolynomialBend::can_bound(shape, *degree)) {
+                bends.polynomial.emplace(shape, *degree);
+            }
+        }
+        return bends;
+    }
+    std::uint32_t class_of(std::uint64_t element) const {
+        std::uint32_t index = 0;
+        while (element >= m_volume.classes()[index].first_element + m_volume.classes()[index].n_elements) {
+            ++index;
+        }
+        return index;
     }
 
     /** Unit normals of points, each with its place in an element. */
