@@ -74,8 +74,7 @@ std::vector<double> certified_bends(const RuntimeVolume& volume, const Expressio
     for (std::size_t at = 0; at < elements.size();) {
         const std::uint64_t first = elements[at], count = std::min(block, volume.n_elements() - first);
         bounds.resize(count * n_components);
-        const bool is_certified =
-            volume.derivative_bounds(plain->field, time_step, first, count, bounds) == ELVIS_CERTIFIED;
+        const bool is_certified = volume.derivative_bounds(plain->field, time_step, first, count, bounds) == ELVIS_CERTIFIED;
         for (; at < elements.size() && elements[at] - first < count; ++at) {
             const std::size_t entry = (elements[at] - first) * n_components + static_cast<std::size_t>(plain->component);
             bends[at] = is_certified ? bounds[entry].second : bends[at];
@@ -94,8 +93,7 @@ std::vector<double> certified_bends(const RuntimeVolume& volume, const Expressio
 
 bool PolynomialBend::can_bound(elvis_shape shape, unsigned degree) {
     constexpr unsigned most_degree = 12;
-    const bool is_known =
-        shape == ELVIS_SHAPE_HEXAHEDRON || shape == ELVIS_SHAPE_PRISM || shape == ELVIS_SHAPE_TETRAHEDRON;
+    const bool is_known = shape == ELVIS_SHAPE_HEXAHEDRON || shape == ELVIS_SHAPE_PRISM || shape == ELVIS_SHAPE_TETRAHEDRON;
     return is_known && degree <= most_degree;
 }
 

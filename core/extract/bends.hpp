@@ -30,8 +30,8 @@ std::vector<double> certified_bends(const RuntimeVolume& volume, const Expressio
                                     std::span<const std::uint64_t> elements);
 
 /**
- * Of polynomials of that degree, in elements of one shape: from their Bernstein form (core/volume/element/second_derivatives.hpp),
- * whose coefficients are nowhere exceeded; but for rounding, certified.
+ * Of polynomials of that degree, in elements of one shape: from their Bernstein form
+ * (core/volume/element/second_derivatives.hpp), whose coefficients are nowhere exceeded; but for rounding, certified.
  */
 class PolynomialBend {
 public:

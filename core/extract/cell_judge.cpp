@@ -373,8 +373,8 @@ void CellJudge::judge_triangles(ElementCells& cells, const std::vector<std::size
             deviation = std::max(deviation, distance_to_plane(predicted_surface(sample), flat));
         }
         const bool is_fine = deviation <= model_share * m_tolerance &&
-                             (m_contours.empty() || (are_contours_clear(cells, triangle, contour_bend) &&
-                                                     are_contours_fine(cells, cell, triangle)));
+                             (m_contours.empty() ||
+                              (are_contours_clear(cells, triangle, contour_bend) && are_contours_fine(cells, cell, triangle)));
         cell.state = is_fine ? cell.state : Cell::State::wanted;
     }
     judge_rims(cells, pieces, outer_faces);

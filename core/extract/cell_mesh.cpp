@@ -72,7 +72,8 @@ void CellMesh::for_each_element(const char* activity, const std::function<void(s
         },
         [&] {
             m_control.check();
-            m_control.progress(static_cast<double>(n_done.load()) / static_cast<double>(std::max<std::uint64_t>(1, n)), activity);
+            m_control.progress(static_cast<double>(n_done.load()) / static_cast<double>(std::max<std::uint64_t>(1, n)),
+                               activity);
         });
 }
 
@@ -156,8 +157,8 @@ void CellMesh::halve_wanted() {
             m_cells[index].sweep();
         });
         if (n_cells() > m_most_cells) {
-            throw Error(m_sampler.volume().path(), "would take more than " + std::to_string(m_most_cells) +
-                                                       " cells; a larger tolerance takes fewer");
+            throw Error(m_sampler.volume().path(),
+                        "would take more than " + std::to_string(m_most_cells) + " cells; a larger tolerance takes fewer");
         }
         std::unordered_set<std::uint64_t> halved;
         for (std::size_t index = 0; index < m_cells.size(); ++index) {

@@ -73,8 +73,7 @@ std::vector<Segment> segments_of(const SurfaceSampler& sampler, const ElementCel
             segment.ends = {ends[0], ends[1]};
             std::vector<CurveQuery> between;
             for (const double share : compared_shares) {
-                between.push_back(
-                    {plus(scaled(ends[0].xi, 1 - share), scaled(ends[1].xi, share)), isovalues[k], std::nullopt});
+                between.push_back({plus(scaled(ends[0].xi, 1 - share), scaled(ends[1].xi, share)), isovalues[k], std::nullopt});
             }
             for (const SurfacePoint& point : points_of_curves(sampler, element, between)) {
                 segment.distance =
@@ -153,8 +152,7 @@ ContourLines contour_lines(const SurfaceSampler& sampler, CellMesh& cells, const
     }
     std::vector<std::vector<Segment>> found(cells.elements().size());
     cells.for_each_element("following contours", [&](std::size_t index) {
-        found[index] =
-            segments_of(sampler, cells.elements()[index], mesh, values, isovalues, first[index], first[index + 1]);
+        found[index] = segments_of(sampler, cells.elements()[index], mesh, values, isovalues, first[index], first[index + 1]);
     });
 
     ContourLines contours;

@@ -214,8 +214,8 @@ private:
         bends.degree = 0;
         for (const auto& function : {m_sampler->level(), m_sampler->contour()}) {
             if (function) {
-                bends.degree = std::max(
-                    bends.degree, polynomial_degree(*function, m_volume, element_class).value_or(unknown_degree));
+                bends.degree =
+                    std::max(bends.degree, polynomial_degree(*function, m_volume, element_class).value_or(unknown_degree));
             }
         }
         if (m_sampler->has_level()) {
@@ -252,8 +252,7 @@ private:
             std::vector<SurfacePoint> points = m_sampler->at(mesh.places[order[begin]].element, xi, {});
             for (std::size_t i = begin; i < end; ++i) {
                 SurfacePoint& point = points[i - begin];
-                const Vector3 normal =
-                    point.world(m_sampler->has_level() ? point.level.slope : face_normals[order[i]]);
+                const Vector3 normal = point.world(m_sampler->has_level() ? point.level.slope : face_normals[order[i]]);
                 const double size = length(normal);
                 mesh.normals[order[i]] = size > 0 && std::isfinite(size) ? scaled(normal, 1 / size) : Vector3{};
             }
@@ -279,7 +278,8 @@ private:
                 }
             }
             const auto& [a, b, c] = triangle.vertices;
-            const Vector3 vector = cross(minus(mesh.positions[b], mesh.positions[a]), minus(mesh.positions[c], mesh.positions[a]));
+            const Vector3 vector =
+                cross(minus(mesh.positions[b], mesh.positions[a]), minus(mesh.positions[c], mesh.positions[a]));
             area += 0.5 * length(vector);
             volume += dot(mesh.positions[a], vector) / 6;
         }

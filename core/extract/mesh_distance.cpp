@@ -55,7 +55,8 @@ private:
 
     void add(std::uint32_t index) {
         const MergedTriangle& triangle = m_mesh.triangles[index];
-        const Triangle3 flat = flat_triangle(m_cells, triangle.points), reference = reference_triangle(m_cells, triangle.points);
+        const Triangle3 flat = flat_triangle(m_cells, triangle.points),
+                        reference = reference_triangle(m_cells, triangle.points);
         for (const auto& weights : measured_weights) {
             m_samples.push_back({index, mean_of(flat, weights)});
             m_queries.push_back({mean_of(flat, weights), mean_of(reference, weights)});
@@ -88,8 +89,7 @@ private:
         const std::vector<SurfacePoint> on_rim = points_of_curves(m_sampler, m_element, m_side_queries);
         for (std::size_t i = 0; i < on_rim.size(); ++i) {
             const Triangle3 flat = flat_triangle(m_cells, m_mesh.triangles[m_sides[i].triangle].points);
-            const double off =
-                distance_to_segment(on_rim[i].position, flat[m_sides[i].side], flat[(m_sides[i].side + 1) % 3]);
+            const double off = distance_to_segment(on_rim[i].position, flat[m_sides[i].side], flat[(m_sides[i].side + 1) % 3]);
             note(m_sides[i].triangle, 0, off, most);
         }
         m_samples.clear();

@@ -54,8 +54,7 @@ std::vector<std::array<std::uint32_t, 3>> triangles_of(std::span<const int> corn
 
 double orientation(const std::vector<Vector3>& points, const Corners& cell) {
     const Vector3& origin = points[cell[0]];
-    return dot(minus(points[cell[1]], origin),
-               cross(minus(points[cell[2]], origin), minus(points[cell[3]], origin)));
+    return dot(minus(points[cell[1]], origin), cross(minus(points[cell[2]], origin), minus(points[cell[3]], origin)));
 }
 
 /** Tetrahedra between a point and those faces that do not have it. */
