@@ -158,6 +158,9 @@ SimplexFunction::SimplexFunction(std::span<const Vector3> corners, std::span<con
     }
     constexpr std::array<double, 5> squares{0, 0, 1.0 / 4, 4.0 / 9, 9.0 / 16};
     const double off = 0.5 * squares[corners.size()] * m_bend * m_width * m_width;
+    for (const double value : values) {
+        m_largest = std::max(m_largest, std::abs(value) + off);
+    }
     m_is_nowhere_zero = std::ranges::all_of(values, [&](double value) { return value > off; }) ||
                         std::ranges::all_of(values, [&](double value) { return value < -off; });
 }

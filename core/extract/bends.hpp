@@ -62,6 +62,8 @@ public:
                     double bend);
     /** No zero is in the simplex. */
     bool is_nowhere_zero() const { return m_is_nowhere_zero; }
+    /** No value in the simplex is larger, or smaller than the opposite. */
+    double largest() const { return m_largest; }
     /** The function grows along some direction; along one in the plane with a normal of length 1; along this one or its
      * opposite. */
     bool is_monotone() const { return grows_along(mean_slope()); }
@@ -73,7 +75,7 @@ private:
     bool grows_along(const Vector3& direction) const;
 
     std::span<const Vector3> m_corners, m_slopes;
-    double m_bend, m_width = 0;
+    double m_bend, m_width = 0, m_largest = 0;
     bool m_is_nowhere_zero = false;
 };
 

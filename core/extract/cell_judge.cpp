@@ -15,6 +15,9 @@ constexpr std::size_t most_bounded_parts = 300000;
 /** Of the tolerance: what linear models may say, so that what is measured afterwards is within it. */
 constexpr double model_share = 0.8;
 
+/** Of the tolerance: parts of the surface that come through a face by less may be missing. */
+constexpr double thin_share = 0.5;
+
 /** Where a triangle is compared with the surface: barycentric coordinates. */
 constexpr std::array<std::array<double, 3>, 7> sample_weights{{{1.0 / 3, 1.0 / 3, 1.0 / 3},
                                                                {0.5, 0.5, 0},
@@ -161,7 +164,11 @@ bool CellJudge::are_faces_clear(const ElementCells& cells, Corners corners, doub
         }
         const CornerData data(cells, side);
         const SimplexFunction function = data.function(bend);
-        return function.is_nowhere_zero() ||
+        double steepness = HUGE_VAL;
+        for (const std::uint32_t corner : side) {
+            steepness = std::min(steepness, cells.points()[corner].steepness);
+        }
+        return function.is_nowhere_zero() || function.largest() <= thin_share * m_tolerance * steepness ||
                (side.size() == 3
                     ? function.is_monotone_in_plane(faces.normals[static_cast<std::size_t>(std::countr_zero(holding))])
                     : function.is_monotone_along(minus(data.xi[1], data.xi[0])));
@@ -191,7 +198,7 @@ bool CellJudge::is_clear(const ElementCells& cells, Corners corners, double bend
 bool CellJudge::is_unexpected(const ElementCells& cells, const Cell& cell, std::uint32_t point) const {
     const CellPoint& here = cells.points()[point];
     // Parts of the surface that come through a face by less than this are thinner than the tolerance.
-    if (here.level.value == 0 || here.reach < 0.5 * m_tolerance) {
+    if (std::abs(here.level.value) <= thin_share * m_tolerance * here.steepness) {
         return false;
     }
     if (!cells.has_surface(cell)) {

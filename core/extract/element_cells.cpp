@@ -87,7 +87,7 @@ void ElementCells::evaluate_new(const SurfaceSampler& sampler) {
         point.position = found[i].position;
         point.level = found[i].level;
         point.contour = found[i].contour;
-        point.reach = std::abs(point.level.value) / length(found[i].world(point.level.slope));
+        point.steepness = length(found[i].world(point.level.slope));
     }
     m_n_evaluated = m_points.size();
 }

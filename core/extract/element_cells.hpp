@@ -27,8 +27,8 @@ struct CellPoint {
     static constexpr std::uint32_t no_id = 0xffffffffu;
     Vector3 xi{}, position{};
     Sloped level, contour;
-    /** How far away the surface is by the linear model, in world units. */
-    double reach = 0;
+    /** Length of the level's gradient in the world. */
+    double steepness = 0;
     /** Of corners: the same for the elements that share the place. */
     std::uint32_t id = no_id;
     /** Of places on edges: the corners at the ends. */
