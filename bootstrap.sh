@@ -49,7 +49,7 @@ install_missing() {
 }
 
 build() { # arguments: further cmake options
-    cmake --preset release "$@"
+    cmake --preset release -DELVIS_COMPILE_TOGETHER=ON "$@"
     cmake --build --preset release
 }
 

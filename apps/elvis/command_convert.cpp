@@ -18,7 +18,7 @@ namespace elvis::commands {
 
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
     std::vector<std::string> inputs;
     std::string output;
     std::string plugin;
@@ -40,8 +40,10 @@ void print_table(const ConvertReport& report, const std::string& output) {
         std::printf("%s\n", counted(count, shape + " element").c_str());
     }
     for (const FieldReport& field : report.fields) {
-        std::printf("field %s: %s, residual %.3g of its range, largest jump %.3g\n", field.name.c_str(),
-                    field.exact ? "exact but for round-off" : "NOT exact", field.residual, field.max_jump);
+        const bool has_gaps = field.n_not_finite > 0;
+        const std::string gaps = has_gaps ? ", not a number in " + counted(field.n_not_finite, "element") : std::string();
+        std::printf("field %s: %s, residual %.3g of its range, largest jump %.3g%s\n", field.name.c_str(),
+                    field.exact ? "exact but for round-off" : "NOT exact", field.residual, field.max_jump, gaps.c_str());
     }
     if (report.n_unknown_faces > 0) {
         std::printf("%s whose neighbour is unknown\n", counted(report.n_unknown_faces, "face").c_str());
@@ -57,7 +59,7 @@ void write_report(const ConvertReport& report, const std::string& path) {
     }
 }
 
-ConvertRequest request_of(const Arguments& arguments) {
+ConvertRequest request_of(const ConvertArguments& arguments) {
     ConvertRequest request{arguments.inputs, arguments.output, arguments.plugin, arguments.options, {}};
     ConvertOptions& options = request.options;
     options.program_version = ELVIS_VERSION;
@@ -72,7 +74,7 @@ ConvertRequest request_of(const Arguments& arguments) {
 }
 
 /** In this process, by the library. */
-ConvertReport convert_here(const Arguments& arguments) {
+ConvertReport convert_here(const ConvertArguments& arguments) {
     const auto pointers = [](const std::vector<std::string>& texts) {
         std::vector<elvis_string> all;
         for (const std::string& text : texts) {
@@ -101,7 +103,7 @@ ConvertReport convert_here(const Arguments& arguments) {
     return report_from_json(library_context().convert(conversion, watch));
 }
 
-ConvertReport convert_apart(const Arguments& arguments) {
+ConvertReport convert_apart(const ConvertArguments& arguments) {
     TaskControl control;
     const ProgressBar progress(control);
     const InterruptGuard guard(control, SecondInterrupt::is_counted);
@@ -115,14 +117,14 @@ ConvertReport convert_apart(const Arguments& arguments) {
 }
 
 /** In the process that convert_separately started. */
-void answer(const Arguments& arguments) {
+void answer(const ConvertArguments& arguments) {
     report_crashes_to(arguments.answer, crash_mark);
     TaskControl control;
     const InterruptGuard guard(control, SecondInterrupt::is_ignored);
     answer_conversion(request_of(arguments), control, arguments.answer);
 }
 
-void run(const Arguments& arguments) {
+void run_convert(const ConvertArguments& arguments) {
     need_hdf5_ending("--output", arguments.output);
     if (!arguments.report.empty()) {
         need_ending("--report", arguments.report, {".json"});
@@ -142,7 +144,7 @@ void run(const Arguments& arguments) {
 
 void add_convert(CLI::App& app) {
     CLI::App* command = app.add_subcommand("convert", "Convert a foreign data set to a native volume");
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("inputs", arguments->inputs, "Geometry first, then field files")->required();
     command->add_option("-o,--output", arguments->output, "Native volume to write")->required();
     command->add_option("--plugin", arguments->plugin, "Id of the conversion plugin (default: the one surest of the file)");
@@ -164,7 +166,7 @@ void add_convert(CLI::App& app) {
         ->needs(separate);
     // The program calls itself with this.
     command->add_option("--answer", arguments->answer)->group("");
-    command->callback([arguments] { arguments->answer >= 0 ? answer(*arguments) : run(*arguments); });
+    command->callback([arguments] { arguments->answer >= 0 ? answer(*arguments) : run_convert(*arguments); });
 }
 
 } // namespace elvis::commands

@@ -15,7 +15,7 @@ namespace elvis::commands {
 
 namespace {
 
-struct Arguments {
+struct ExportArguments {
     std::vector<std::string> files;
     std::string output;
     std::string plugin;
@@ -23,7 +23,7 @@ struct Arguments {
     int order = 0;
 };
 
-void run(const Arguments& arguments) {
+void run_export(const ExportArguments& arguments) {
     need_ending("--output", arguments.output, {".vtu"});
     const PluginRegistry registry;
     ExportOptions options;
@@ -44,7 +44,7 @@ void run(const Arguments& arguments) {
 } // namespace
 
 void add_export(CLI::App& app) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ExportArguments>();
     CLI::App* command = app.add_subcommand("export", "Write a volume as VTK's Lagrange cells (.vtu), for ParaView and others");
     command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
         ->required();
@@ -56,7 +56,7 @@ void add_export(CLI::App& app) {
                      "Order of the cells; default: the largest that the plugin gives for geometry and fields, which is exact "
                      "if it is no smaller than theirs")
         ->check(CLI::Range(1, 20));
-    command->callback([arguments] { run(*arguments); });
+    command->callback([arguments] { run_export(*arguments); });
 }
 
 } // namespace elvis::commands

@@ -19,7 +19,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct InfoArguments {
     std::vector<std::string> files;
     std::string plugin;
     WarpArguments warp;
@@ -136,7 +136,7 @@ void print_table(const ordered_json& root) {
 
 void add_info(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "Say what is in a volume");
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<InfoArguments>();
     command->add_option("volume", a->files, "Volume, whatever its format (geometry first, then field files)")->required();
     command->add_option("--plugin", a->plugin, "Id of the plugin (default: the one surest of the file)");
     add_warp(*command, a->warp);

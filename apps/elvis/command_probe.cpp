@@ -24,7 +24,7 @@
 namespace elvis::commands {
 namespace {
 
-struct Arguments {
+struct ProbeArguments {
     std::vector<std::string> files;
     std::string plugin;
     WarpArguments warp;
@@ -83,7 +83,7 @@ void read_points(const std::string& path, std::vector<double>& positions) {
 }
 
 /** Three numbers a point. */
-std::vector<double> positions_of(const Arguments& arguments) {
+std::vector<double> positions_of(const ProbeArguments& arguments) {
     std::vector<double> positions;
     for (const std::string& text : arguments.points) {
         const std::optional<Vector3> position = parse_position(text);
@@ -102,7 +102,8 @@ std::vector<double> positions_of(const Arguments& arguments) {
 class Answers {
 public:
     /** What is asked for: all fields, then the expressions. */
-    Answers(const data& volume, const Arguments& arguments, const std::vector<double>& positions) : m_positions(positions) {
+    Answers(const data& volume, const ProbeArguments& arguments, const std::vector<double>& positions)
+        : m_positions(positions) {
         const std::uint32_t n_fields = volume.info().n_fields;
         for (std::uint32_t index = 0; index < n_fields; ++index) {
             const elvis_field field = volume.field(index);
@@ -153,7 +154,7 @@ private:
         return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
     }
 
-    void ask(const data& volume, const Arguments& arguments) {
+    void ask(const data& volume, const ProbeArguments& arguments) {
         const std::size_t n = m_positions.size() / 3;
         m_elements.resize(n);
         m_failures.resize(n);
@@ -272,7 +273,7 @@ void print_table(const Answers& answers) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run_probe(const ProbeArguments& arguments) {
     const std::vector<double> positions = positions_of(arguments);
     const context library = library_context(arguments.device);
     const data volume =
@@ -291,7 +292,7 @@ void run(const Arguments& arguments) {
 } // namespace
 
 void add_probe(CLI::App& app) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ProbeArguments>();
     CLI::App* command =
         app.add_subcommand("probe", "Print element, reference coordinates and fields at points, in double precision");
     command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
@@ -312,7 +313,7 @@ void add_probe(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--device", arguments->device, "Device for --evaluate device: name or index");
     command->add_flag("--json", arguments->json, "Print JSON");
-    command->callback([arguments] { run(*arguments); });
+    command->callback([arguments] { run_probe(*arguments); });
 }
 
 } // namespace elvis::commands

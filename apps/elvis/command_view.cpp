@@ -10,12 +10,12 @@ namespace elvis::commands {
 
 namespace {
 
-struct Arguments {
+struct ViewArguments {
     view::Options options;
     std::string size;
 };
 
-void run(Arguments arguments) {
+void run_view(ViewArguments arguments) {
     if (!arguments.size.empty()) {
         int width = 0, height = 0, used = 0;
         if (std::sscanf(arguments.size.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
@@ -32,7 +32,7 @@ void run(Arguments arguments) {
 
 void add_view(CLI::App& app) {
     CLI::App* command = app.add_subcommand("view", "Look at a volume in a window");
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<ViewArguments>();
     command->add_option("input", a->options.files, "Scene, or volume, whatever its format (geometry first, then field files)");
     command->add_option("--device", a->options.device,
                         "Name (or part of it), index, PCI bus id or UUID of the Vulkan device that draws");
@@ -42,7 +42,7 @@ void add_view(CLI::App& app) {
     command->add_flag("--validation", a->options.validation, "Run with the Vulkan validation layer; any message is an error");
     command->add_option("--describe", a->options.description,
                         "For tests: a file that tells, as JSON, what is on the screen and where");
-    command->callback([a] { run(*a); });
+    command->callback([a] { run_view(*a); });
 }
 
 } // namespace elvis::commands

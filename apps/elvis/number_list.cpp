@@ -34,4 +34,9 @@ std::vector<double> numbers(const char* option, const std::string& text, std::si
     return list;
 }
 
+std::array<double, 3> point(const char* option, const std::string& text) {
+    const std::vector<double> list = numbers(option, text, 3, 3);
+    return {list[0], list[1], list[2]};
+}
+
 } // namespace elvis::commands

@@ -15,7 +15,7 @@ namespace elvis {
 namespace {
 
 /** FreeType counts in 64ths of a pixel, and advances by outline in 65536ths. */
-constexpr double pixel = 64;
+constexpr double units_per_pixel = 64;
 constexpr double linear_pixel = 65536;
 
 struct LibraryDone {
@@ -67,7 +67,7 @@ struct Font::Impl {
 
     void set_size(double size) const {
         // At 72 dots per inch a point is a pixel.
-        FT_Set_Char_Size(face.get(), 0, std::max<FT_F26Dot6>(1, std::lround(pixel * size)), 72, 72);
+        FT_Set_Char_Size(face.get(), 0, std::max<FT_F26Dot6>(1, std::lround(units_per_pixel * size)), 72, 72);
     }
 
     /** Calls visit(x) for every glyph, which is loaded, at its place; returns the end. */
@@ -79,7 +79,7 @@ struct Font::Impl {
             const FT_UInt glyph = FT_Get_Char_Index(face.get(), is_control ? U' ' : character);
             FT_Vector kerning{};
             if (previous != 0 && FT_Get_Kerning(face.get(), previous, glyph, FT_KERNING_UNFITTED, &kerning) == 0) {
-                x += static_cast<double>(kerning.x) / pixel;
+                x += static_cast<double>(kerning.x) / units_per_pixel;
             }
             previous = glyph;
             if (FT_Load_Glyph(face.get(), glyph, flags) != 0) {
@@ -145,7 +145,8 @@ Mask Font::text(const std::string& text, double size, bool is_upwards) const {
         }
         Glyph glyph(raw);
         FT_Matrix turn = {0, -0x10000, 0x10000, 0};
-        FT_Vector shift = {is_upwards ? 0 : std::lround(pixel * x), is_upwards ? std::lround(pixel * x) : 0};
+        FT_Vector shift = {is_upwards ? 0 : std::lround(units_per_pixel * x),
+                           is_upwards ? std::lround(units_per_pixel * x) : 0};
         FT_Glyph_Transform(raw, is_upwards ? &turn : nullptr, &shift);
         raw = glyph.release();
         const FT_Error error = FT_Glyph_To_Bitmap(&raw, FT_RENDER_MODE_NORMAL, nullptr, 1);
@@ -168,7 +169,7 @@ double Font::digit_height(double size) const {
     double height = 0;
     m_impl->walk("0", FT_LOAD_NO_BITMAP | FT_LOAD_TARGET_LIGHT, [&](double) {
         // With light hinting the top of a digit lies on a whole row.
-        height = static_cast<double>(m_impl->face->glyph->metrics.horiBearingY) / pixel;
+        height = static_cast<double>(m_impl->face->glyph->metrics.horiBearingY) / units_per_pixel;
     });
     return height;
 }

@@ -1,4 +1,5 @@
 #include <core/annotation/ticks.hpp>
+#include <core/base/infinity.hpp>
 
 #include <algorithm>
 #include <charconv>
@@ -28,7 +29,6 @@ double value_of(const Decimal& decimal) {
     double value = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
     if (result.ec == std::errc::result_out_of_range) {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
         return decimal.power < 0 ? 0 : decimal.n < 0 ? -infinity : infinity;
     }
     return value;

@@ -10,35 +10,35 @@ namespace elvis::library {
 
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
 /** The file that a scene without one is named by in messages; paths are seen from the working directory. */
 constexpr const char* no_file = "scene";
 
-elvis_scene* new_scene(const std::shared_ptr<Context>& context, json document, const std::string& file) {
+elvis_scene* new_scene(const std::shared_ptr<Context>& context, Json document, const std::string& file) {
     Scene scene = scene_of(document, file);
     return new elvis_scene{{context, std::move(document), file, std::move(scene)}};
 }
 
-json parsed(const std::string& text, const std::string& what) {
+Json parsed(const std::string& text, const std::string& what) {
     try {
-        return json::parse(text);
-    } catch (const json::parse_error& error) {
+        return Json::parse(text);
+    } catch (const Json::parse_error& error) {
         throw InvalidArgument(what, std::string("is no JSON: ") + error.what());
     }
 }
 
-json::json_pointer parsed_pointer(const std::string& text) {
+Json::json_pointer parsed_pointer(const std::string& text) {
     try {
-        return json::json_pointer(text);
-    } catch (const json::exception&) {
+        return Json::json_pointer(text);
+    } catch (const Json::exception&) {
         throw InvalidArgument("'" + text + "'", "is no JSON Pointer, such as /camera/eye or /surfaces/0");
     }
 }
 
 /** The document with one value set, or removed where there is none. */
-json changed(json document, const std::string& where, elvis_string value) {
-    const json::json_pointer pointer = parsed_pointer(where);
+Json changed(Json document, const std::string& where, elvis_string value) {
+    const Json::json_pointer pointer = parsed_pointer(where);
     try {
         if (value == nullptr) {
             if (!document.contains(pointer) || pointer.empty()) {
@@ -48,10 +48,10 @@ json changed(json document, const std::string& where, elvis_string value) {
                 ? document.at(pointer.parent_pointer()).erase(std::stoul(pointer.back()))
                 : static_cast<void>(document.at(pointer.parent_pointer()).erase(pointer.back()));
         } else {
-            json& place = document[pointer];
+            Json& place = document[pointer];
             place = parsed(value, "the value for '" + where + "'");
         }
-    } catch (const json::exception&) {
+    } catch (const Json::exception&) {
         throw InvalidArgument("'" + where + "'", "there is no such place in the scene");
     }
     return document;
@@ -111,7 +111,7 @@ elvis_result elvis_scene_complete(const elvis_scene* scene, elvis_data* data, el
         Scene said = complete_scene(scene_for(state, own), state.volume, state.renderer(precision_of(own)).ranges());
         said.volume = own.volume;
         const std::string& file = scene->state.file;
-        *complete = new elvis_scene{{scene->state.context, nlohmann::json::parse(scene_json(said, file).dump()), file, said}};
+        *complete = new elvis_scene{{scene->state.context, Json::parse(scene_json(said, file).dump()), file, said}};
     });
 }
 
@@ -120,7 +120,7 @@ void elvis_scene_release(elvis_scene* scene) { delete scene; }
 elvis_result elvis_scene_set(elvis_scene* scene, elvis_string pointer, elvis_string value) {
     return call(scene, [&] {
         need(pointer, "pointer");
-        nlohmann::json document = changed(scene->state.document, pointer, value);
+        Json document = changed(scene->state.document, pointer, value);
         scene->state.scene = scene_of(document, scene->state.file);
         scene->state.document = std::move(document);
     });
@@ -130,7 +130,7 @@ elvis_result elvis_scene_get(const elvis_scene* scene, elvis_string pointer, cha
     return call(scene, [&] {
         need(pointer, "pointer");
         need(text, "text");
-        const nlohmann::json::json_pointer place = parsed_pointer(pointer);
+        const Json::json_pointer place = parsed_pointer(pointer);
         if (!scene->state.document.contains(place)) {
             throw InvalidArgument("'" + std::string(pointer) + "'", "the scene does not say it");
         }

@@ -8,7 +8,7 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint64_t block_size = 65536;
+constexpr std::uint64_t elements_at_once = 65536;
 
 using Orders = std::array<std::uint32_t, 3>;
 /** Shape, geometry orders, then orders and containment of each field. */
@@ -63,10 +63,10 @@ std::vector<TargetClass> target_classes(const SourceVolume& source, const std::v
     std::vector<elvis_source_element> elements;
     std::vector<std::vector<elvis_source_space>> spaces(fields.size());
 
-    for (std::uint64_t first = 0; first < n_elements; first += block_size) {
+    for (std::uint64_t first = 0; first < n_elements; first += elements_at_once) {
         control.check();
         control.progress(-1, "looking at elements");
-        const std::uint64_t count = std::min(block_size, n_elements - first);
+        const std::uint64_t count = std::min(elements_at_once, n_elements - first);
         elements.resize(count);
         source.elements(first, count, elements);
         for (std::size_t field = 0; field < fields.size(); ++field) {

@@ -1,3 +1,4 @@
+#include <core/base/infinity.hpp>
 #include <core/session/describe_volume.hpp>
 
 #include <core/base/background.hpp>
@@ -185,7 +186,6 @@ ordered_json describe_fields(const RuntimeVolume& volume, const DescribeOptions&
 } // namespace
 
 std::pair<std::array<double, 6>, elvis_certainty> bounds_of(const RuntimeVolume& volume) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 6> bounds{infinity, infinity, infinity, -infinity, -infinity, -infinity};
     std::vector<double> boxes(6 * volume.n_elements());
     const elvis_certainty certainty = volume.bounds(0, volume.n_elements(), boxes);

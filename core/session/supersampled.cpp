@@ -7,7 +7,7 @@ namespace elvis {
 
 namespace {
 
-constexpr std::size_t n_channels = 4;
+constexpr std::size_t n_color_channels = 4;
 
 FrameRequest finer(const FrameRequest& request, std::uint32_t n) {
     FrameRequest fine = request;
@@ -32,11 +32,11 @@ FrameRequest finer(const FrameRequest& request, std::uint32_t n) {
 }
 
 /** Of n by n pixels of a band, from the first of them on. */
-std::array<double, n_channels> mean(const Frame& band, std::size_t row, std::size_t column, std::uint32_t n) {
-    std::array<double, n_channels> sum{};
+std::array<double, n_color_channels> mean(const Frame& band, std::size_t row, std::size_t column, std::uint32_t n) {
+    std::array<double, n_color_channels> sum{};
     for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = 0; j < n; ++j) {
-            const double* const color = &band.color[n_channels * ((row + i) * band.width + column + j)];
+            const double* const color = &band.color[n_color_channels * ((row + i) * band.width + column + j)];
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 sum[channel] += color[3] * color[channel];
             }
@@ -64,12 +64,13 @@ SupersampledColors supersampled(std::span<Renderer* const> renderers, const Fram
                                 const TaskControl* control) {
     const FrameRequest fine = finer(request, n);
     SupersampledColors result;
-    result.color.resize(n_channels * request.width * request.height);
+    result.color.resize(n_color_channels * request.width * request.height);
     const auto take = [&](const Frame& band, const Rows& rows) {
         for (std::uint32_t row = rows.first / n; row < rows.end / n; ++row) {
             for (std::size_t column = 0; column < request.width; ++column) {
-                const std::array<double, n_channels> color = mean(band, row * n - rows.first, column * n, n);
-                std::copy(color.begin(), color.end(), &result.color[n_channels * (std::size_t{row} * request.width + column)]);
+                const std::array<double, n_color_channels> color = mean(band, row * n - rows.first, column * n, n);
+                std::copy(color.begin(), color.end(),
+                          &result.color[n_color_channels * (std::size_t{row} * request.width + column)]);
             }
         }
     };

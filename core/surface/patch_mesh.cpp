@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/infinity.hpp>
 #include <core/base/whole_file.hpp>
 #include <core/surface/mesh_cursor.hpp>
 #include <core/surface/patch_mesh.hpp>
@@ -41,7 +42,6 @@ BezierPatch BezierPatch::part(double u0, double v0, double h) const {
 }
 
 std::array<double, 6> PatchMesh::bounds() const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 6> box = {infinity, infinity, infinity, -infinity, -infinity, -infinity};
     for (const BezierPatch& patch : patches) {
         for (const auto& point : patch.points) {

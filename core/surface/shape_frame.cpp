@@ -1,5 +1,6 @@
 #include <core/base/bounds.hpp>
 #include <core/base/float_rounding.hpp>
+#include <core/base/infinity.hpp>
 #include <core/surface/quadric_level.hpp>
 #include <core/surface/shape_frame.hpp>
 
@@ -17,8 +18,6 @@ namespace {
 using Real = long double;
 using Vector = Eigen::Matrix<Real, 3, 1>;
 using Matrix = Eigen::Matrix<Real, 3, 3>;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vector convert(const Vector3& v) { return {v[0], v[1], v[2]}; }
 

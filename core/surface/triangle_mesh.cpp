@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/infinity.hpp>
 #include <core/base/whole_file.hpp>
 #include <core/surface/mesh_cursor.hpp>
 
@@ -17,7 +18,6 @@ std::string mesh_ending(const std::string& path) {
 }
 
 std::array<double, 6> TriangleMesh::bounds() const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 6> box = {infinity, infinity, infinity, -infinity, -infinity, -infinity};
     for (const auto& triangle : triangles) {
         for (const std::uint32_t corner : triangle) {

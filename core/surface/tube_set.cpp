@@ -1,3 +1,4 @@
+#include <core/base/infinity.hpp>
 #include <core/surface/tube_set.hpp>
 
 #include <algorithm>
@@ -15,7 +16,6 @@ std::array<double, 6> TubeSet::bounds() const {
     if (pieces.empty()) {
         return {-radius, -radius, -radius, radius, radius, radius};
     }
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     std::array<double, 6> box{infinity, infinity, infinity, -infinity, -infinity, -infinity};
     for (const Piece& piece : pieces) {
         for (const Vector3& end : {piece[1], piece[2]}) {

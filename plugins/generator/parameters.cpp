@@ -17,7 +17,7 @@ using nlohmann::json;
 // Limits that keep every count within 64 bits and every space within the native volume's largest order (30).
 constexpr std::uint32_t max_elements_per_direction = 1u << 20;
 constexpr double max_elements = 1e11;
-constexpr std::uint32_t max_order = 30;
+constexpr std::uint32_t highest_order = 30;
 constexpr std::uint32_t max_geometry_order = 12;
 constexpr std::uint32_t max_degree = 30;
 
@@ -60,7 +60,7 @@ std::optional<std::array<std::uint32_t, 3>> read_order(const JsonObject& object)
         object.fail("order", "must be one number, or three (hexahedra only)");
     std::array<std::uint32_t, 3> result{};
     for (std::size_t d = 0; d < 3; ++d)
-        result[d] = object.whole("order", order[order.size() == 1 ? 0 : d], 0, max_order);
+        result[d] = object.whole("order", order[order.size() == 1 ? 0 : d], 0, highest_order);
     if (std::ranges::count(result, 0u) % 3 != 0)
         object.fail("order", "order 0 in one direction asks for order 0 in all");
     return result;
@@ -268,7 +268,7 @@ Parameters read_parameters(const std::string& path) {
                           {"generator", "mesh", "shape", "box", "elements", "layers", "radius", "inner_radius", "tube_radius",
                            "amplitude", "geometry_order", "field", "fields", "order", "degree", "coefficients", "continuity",
                            "time_steps"});
-    if (root.whole("generator", root.number("generator"), 0, max_order) != 1)
+    if (root.whole("generator", root.number("generator"), 0, highest_order) != 1)
         root.fail("generator", "version 1 is the only one known");
     Parameters p;
     read_mesh(root, p);

@@ -79,7 +79,7 @@ private:
         const int rank = check(H5Tget_array_ndims(type), m_place, "has a damaged type");
         std::vector<hsize_t> extent(static_cast<std::size_t>(rank));
         check(H5Tget_array_dims2(type, extent.data()), m_place, "has a damaged type");
-        const auto n = n_entries({extent.begin(), extent.end()});
+        const auto n = n_entries(std::vector<std::uint64_t>(extent.begin(), extent.end()));
         if (!n || *n == 0 || *n > most_numbers) {
             m_place.fail("has arrays of an impossible size");
         }

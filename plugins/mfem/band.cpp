@@ -11,7 +11,7 @@ namespace elvis_mfem {
 namespace {
 
 /** Of the largest extent of the curve. */
-constexpr double width = 0.05;
+constexpr double relative_width = 0.05;
 
 /** Degrees of freedom of a segment, along it: vertices come first in H1, then what is inside the segments, one after the other.
  */
@@ -63,7 +63,7 @@ void widen(GridFunction& nodes) {
     for (const std::size_t axis : {std::size_t{2}, std::size_t{0}}) {
         across = extent(axis) < extent(across) ? axis : across;
     }
-    const double size = width * std::max({extent(0), extent(1), extent(2)});
+    const double size = relative_width * std::max({extent(0), extent(1), extent(2)});
     const auto n = static_cast<std::size_t>(nodes.collection.order) + 1;
     const std::vector<double> places = points(nodes.collection.basis, static_cast<int>(n));
     for (std::size_t dof = 0; dof < nodes.values.size() / 3; ++dof) {

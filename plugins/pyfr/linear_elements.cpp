@@ -8,7 +8,7 @@ namespace elvis_pyfr {
 
 namespace {
 
-constexpr std::uint64_t block_size = 4096;
+constexpr std::uint64_t element_block = 4096;
 
 } // namespace
 
@@ -17,9 +17,9 @@ std::vector<bool> find_linear_elements(const Mesh& mesh, const elvis::api::Host&
     for (const ElementSet& set : mesh.sets()) {
         const elvis::nodal::LinearElement is_linear(*set.nodes, set.corners);
         const std::size_t n_numbers = 3 * set.nodes->size();
-        for (std::uint64_t first = 0; first < set.count; first += block_size) {
+        for (std::uint64_t first = 0; first < set.count; first += element_block) {
             host.check_cancelled();
-            const std::uint64_t count = std::min(block_size, set.count - first);
+            const std::uint64_t count = std::min(element_block, set.count - first);
             const std::vector<double> positions = mesh.read_nodes(set, first, count);
             for (std::uint64_t element = 0; element < count; ++element) {
                 const std::span own(&positions[n_numbers * element], n_numbers);

@@ -7,7 +7,7 @@ namespace elvis_pyfr {
 namespace {
 
 /** Faces that are read at a time. */
-constexpr std::uint64_t block_size = 65536;
+constexpr std::uint64_t connection_block = 65536;
 
 } // namespace
 
@@ -56,8 +56,8 @@ void PartitionedMesh::add_boundary(const std::string& name, const std::string& g
     }
     const std::int32_t index = group(group_name);
     const std::uint64_t n = data.shape()[0];
-    for (std::uint64_t first = 0; first < n; first += block_size) {
-        const std::uint64_t count = std::min(block_size, n - first);
+    for (std::uint64_t first = 0; first < n; first += connection_block) {
+        const std::uint64_t count = std::min(connection_block, n - first);
         const std::vector<std::string> names = data.read_texts(first, count, {members[0]});
         std::vector<std::int64_t> elements(count), faces(count);
         data.read({first}, {count}, std::span(elements), {members[1]});

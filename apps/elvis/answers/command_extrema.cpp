@@ -18,7 +18,7 @@
 namespace elvis::commands {
 namespace {
 
-struct Arguments {
+struct ExtremaArguments {
     std::vector<std::string> files;
     std::string plugin;
     WarpArguments warp;
@@ -42,7 +42,7 @@ nlohmann::ordered_json extremum(double value, double bound, bool is_certified, s
     return answer;
 }
 
-void run(const Arguments& arguments) {
+void run_extrema(const ExtremaArguments& arguments) {
     const context library = library_context(arguments.device);
     const data volume =
         warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
@@ -69,7 +69,7 @@ void run(const Arguments& arguments) {
 } // namespace
 
 void add_extrema(CLI::App& app) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<ExtremaArguments>();
     CLI::App* command = app.add_subcommand(
         "extrema", "Print a field's smallest and largest value, where they are, and what certainly holds them");
     command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
@@ -80,7 +80,7 @@ void add_extrema(CLI::App& app) {
     add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command->add_option("--device", arguments->device, "Device that samples expressions: name or index");
-    command->callback([arguments] { run(*arguments); });
+    command->callback([arguments] { run_extrema(*arguments); });
 }
 
 } // namespace elvis::commands

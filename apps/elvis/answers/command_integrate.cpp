@@ -18,7 +18,7 @@
 namespace elvis::commands {
 namespace {
 
-struct Arguments {
+struct IntegrateArguments {
     std::vector<std::string> files;
     std::string plugin;
     WarpArguments warp;
@@ -33,7 +33,7 @@ struct Arguments {
     double tolerance = 0;
 };
 
-elvis_domain domain_of(const Arguments& arguments) {
+elvis_domain domain_of(const IntegrateArguments& arguments) {
     return arguments.is_boundary         ? ELVIS_DOMAIN_BOUNDARY
            : !arguments.plane.empty()    ? ELVIS_DOMAIN_PLANE
            : !arguments.isovalue.empty() ? ELVIS_DOMAIN_ISOSURFACE
@@ -41,7 +41,7 @@ elvis_domain domain_of(const Arguments& arguments) {
 }
 
 /** Of an isosurface: what it is one of. */
-std::string level_field_of(const Arguments& arguments) {
+std::string level_field_of(const IntegrateArguments& arguments) {
     if (arguments.isovalue.empty() || !arguments.level_field.empty()) {
         return arguments.level_field;
     }
@@ -51,7 +51,7 @@ std::string level_field_of(const Arguments& arguments) {
     return arguments.field;
 }
 
-elvis_integral integral_of(const data& volume, const Arguments& arguments) {
+elvis_integral integral_of(const data& volume, const IntegrateArguments& arguments) {
     const std::string level_field = level_field_of(arguments);
     std::vector<elvis_string> groups;
     for (const std::string& group : arguments.groups) {
@@ -93,7 +93,7 @@ void say_doubts(const elvis_integral& integral) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run_integrate(const IntegrateArguments& arguments) {
     const int n_domains = int{arguments.is_boundary} + int{!arguments.plane.empty()} + int{!arguments.isovalue.empty()};
     if (n_domains > 1) {
         throw UsageError("elvis integrate", "takes one of --boundary, --cut-plane and --isosurface");
@@ -121,7 +121,7 @@ void run(const Arguments& arguments) {
 } // namespace
 
 void add_integrate(CLI::App& app) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<IntegrateArguments>();
     CLI::App* command =
         app.add_subcommand("integrate", "Print integrals over a volume, its boundary, planes or isosurfaces, and fluxes");
     command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
@@ -151,7 +151,7 @@ void add_integrate(CLI::App& app) {
         arguments->is_boundary = command->count("--boundary") > 0;
         // Without a name the list holds an empty one.
         std::erase_if(arguments->groups, [](const std::string& name) { return name.empty() || name == "{}"; });
-        run(*arguments);
+        run_integrate(*arguments);
     });
 }
 

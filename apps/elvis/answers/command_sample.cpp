@@ -21,7 +21,7 @@
 namespace elvis::commands {
 namespace {
 
-struct Arguments {
+struct SampleArguments {
     std::vector<std::string> files;
     std::string plugin;
     WarpArguments warp;
@@ -32,7 +32,7 @@ struct Arguments {
 };
 
 /** min x y z, max x y z. */
-std::array<double, 6> box_of(const data& volume, const Arguments& arguments) {
+std::array<double, 6> box_of(const data& volume, const SampleArguments& arguments) {
     std::array<double, 6> box{};
     if (arguments.box.empty()) {
         std::ranges::copy(volume.info().bounds, box.begin());
@@ -47,11 +47,6 @@ std::array<double, 6> box_of(const data& volume, const Arguments& arguments) {
     return box;
 }
 
-std::array<double, 3> point_of(const std::string& text) {
-    const std::vector<double> list = numbers("--line", text, 3, 3);
-    return {list[0], list[1], list[2]};
-}
-
 SamplePoints along_line(std::vector<std::array<double, 3>> corners, const char* option, std::size_t count) {
     if (corners.size() < 2 || std::ranges::adjacent_find(corners, std::not_equal_to()) == corners.end()) {
         throw UsageError(option, "needs two points that differ");
@@ -59,9 +54,9 @@ SamplePoints along_line(std::vector<std::array<double, 3>> corners, const char* 
     return points_along(std::move(corners), count);
 }
 
-SamplePoints points_of(const data& volume, const Arguments& arguments) {
+SamplePoints points_of(const data& volume, const SampleArguments& arguments) {
     if (!arguments.line.empty()) {
-        return along_line({point_of(arguments.line[0]), point_of(arguments.line[1])}, "--line", arguments.count);
+        return along_line({point("--line", arguments.line[0]), point("--line", arguments.line[1])}, "--line", arguments.count);
     }
     if (!arguments.polyline.empty()) {
         return along_line(read_points(arguments.polyline), "--polyline", arguments.count);
@@ -86,7 +81,7 @@ SamplePoints points_of(const data& volume, const Arguments& arguments) {
     return grid_on_plane({plane[0], plane[1], plane[2], plane[3]}, box_of(volume, arguments), n[0], n[1]);
 }
 
-void need_one_kind(const Arguments& arguments) {
+void need_one_kind(const SampleArguments& arguments) {
     const int n_kinds = int{!arguments.line.empty()} + int{!arguments.polyline.empty()} + int{!arguments.points.empty()} +
                         int{!arguments.grid.empty()} + int{!arguments.plane.empty()};
     if (n_kinds != 1) {
@@ -109,7 +104,7 @@ void write(const SampleTable& table, const std::string& path) {
 }
 
 /** What a file of that kind cannot hold is said before anything is computed. */
-void need_fitting_ending(const Arguments& arguments) {
+void need_fitting_ending(const SampleArguments& arguments) {
     need_ending("--output", arguments.output, {".csv", ".npz", ".h5", ".vti", ".svg"});
     if (arguments.output.ends_with(".svg") && arguments.line.empty() && arguments.polyline.empty()) {
         throw UsageError("--output", "'" + arguments.output + "': plots are of --line and --polyline");
@@ -119,7 +114,7 @@ void need_fitting_ending(const Arguments& arguments) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run_sample(const SampleArguments& arguments) {
     need_one_kind(arguments);
     need_fitting_ending(arguments);
     const context library = library_context(arguments.device);
@@ -150,7 +145,7 @@ void run(const Arguments& arguments) {
 } // namespace
 
 void add_sample(CLI::App& app) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<SampleArguments>();
     CLI::App* command =
         app.add_subcommand("sample", "Write fields along lines, at points, on planes and grids, in double precision");
     command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
@@ -178,7 +173,7 @@ void add_sample(CLI::App& app) {
         ->required();
     command->callback([arguments] {
         arguments->size = arguments->size.empty() ? "512x512" : arguments->size;
-        run(*arguments);
+        run_sample(*arguments);
     });
 }
 

@@ -20,7 +20,7 @@ namespace elvis::commands {
 
 namespace {
 
-struct Arguments {
+struct StreamlinesArguments {
     std::vector<std::string> files;
     std::string plugin;
     WarpArguments warp;
@@ -35,17 +35,13 @@ struct Arguments {
     std::string output;
 };
 
-Vector3 point_of(const std::string& text) {
-    const std::vector<double> three = numbers("--line", text, 3, 3);
-    return {three[0], three[1], three[2]};
-}
-
-std::vector<double> seeds_of(const Arguments& arguments) {
+std::vector<double> seeds_of(const StreamlinesArguments& arguments) {
     if (arguments.line.empty() == arguments.seeds.empty()) {
         throw UsageError("elvis streamlines", "takes one of --line and --seeds");
     }
     if (!arguments.line.empty()) {
-        return points_along({point_of(arguments.line[0]), point_of(arguments.line[1])}, arguments.count).positions;
+        return points_along({point("--line", arguments.line[0]), point("--line", arguments.line[1])}, arguments.count)
+            .positions;
     }
     std::vector<double> seeds;
     for (const Vector3& point : read_points(arguments.seeds)) {
@@ -54,7 +50,7 @@ std::vector<double> seeds_of(const Arguments& arguments) {
     return seeds;
 }
 
-traced traced_lines(const data& volume, const Arguments& arguments, const std::vector<double>& seeds) {
+traced traced_lines(const data& volume, const StreamlinesArguments& arguments, const std::vector<double>& seeds) {
     std::vector<elvis_string> names;
     for (const std::string& name : arguments.fields) {
         names.push_back(name.c_str());
@@ -101,7 +97,7 @@ void say_ends(const traced& lines) {
     }
 }
 
-void run(const Arguments& arguments) {
+void run_streamlines(const StreamlinesArguments& arguments) {
     const bool is_csv = arguments.output.ends_with(".csv");
     if (!is_csv && !arguments.output.ends_with(".vtp")) {
         throw UsageError("--output", "'" + arguments.output + "' ends neither in .vtp nor in .csv");
@@ -130,7 +126,7 @@ const char* word_of(elvis_line_end end) {
 }
 
 void add_streamlines(CLI::App& app) {
-    auto arguments = std::make_shared<Arguments>();
+    auto arguments = std::make_shared<StreamlinesArguments>();
     CLI::App* command = app.add_subcommand("streamlines", "Write curves that are everywhere tangent to a vector field");
     command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
         ->required();
@@ -152,7 +148,7 @@ void add_streamlines(CLI::App& app) {
     add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command->add_option("-o,--output", arguments->output, "File to write: .vtp or .csv")->required();
-    command->callback([arguments] { run(*arguments); });
+    command->callback([arguments] { run_streamlines(*arguments); });
 }
 
 } // namespace elvis::commands

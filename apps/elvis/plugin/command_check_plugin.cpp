@@ -22,7 +22,7 @@ using conformance::CheckResult;
 using conformance::Outcome;
 using nlohmann::ordered_json;
 
-struct Arguments {
+struct CheckPluginArguments {
     conformance::Subject subject;
     std::vector<std::string> checks;
     double timeout = 120;
@@ -99,7 +99,7 @@ std::vector<const Check*> wanted_checks(const std::vector<std::string>& names) {
     return wanted;
 }
 
-void run(const Arguments& arguments) {
+void run_check_plugin(const CheckPluginArguments& arguments) {
     const std::vector<const Check*> wanted = wanted_checks(arguments.checks);
     if (!std::filesystem::exists(arguments.subject.library)) {
         throw Error(arguments.subject.library, "there is no such library");
@@ -160,7 +160,7 @@ void run(const Arguments& arguments) {
 void add_check_plugin(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("check-plugin", "Check a plugin against the contract, each check in a process of its own");
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<CheckPluginArguments>();
     command->add_option("library", a->subject.library, "Shared library of the plugin");
     command->add_option("--volume", a->subject.files,
                         "A file that the plugin opens; for sources of several files, repeat it in order");
@@ -185,7 +185,7 @@ void add_check_plugin(CLI::App& app) {
         } else if (!a->in_process.empty()) {
             run_here(need_check(a->in_process), a->subject, a->answer);
         } else {
-            run(*a);
+            run_check_plugin(*a);
         }
     });
 }

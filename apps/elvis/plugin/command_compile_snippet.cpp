@@ -11,7 +11,7 @@ namespace elvis::commands {
 
 namespace {
 
-struct Arguments {
+struct CompileSnippetArguments {
     std::string file;
     conformance::Subject subject;
     conformance::SnippetSurroundings surroundings;
@@ -47,7 +47,7 @@ std::pair<std::string, std::int64_t> definition_of(const std::string& text) {
     throw UsageError("--define " + text, "is not NAME=INTEGER");
 }
 
-void run(Arguments arguments) {
+void run_compile_snippet(CompileSnippetArguments arguments) {
     if (!arguments.at.empty() && arguments.subject.library.empty()) {
         throw UsageError("--at", "wants --plugin LIBRARY --volume FILE: there must be an element to look at");
     }
@@ -86,7 +86,7 @@ void run(Arguments arguments) {
 void add_compile_snippet(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("compile-snippet", "Compile a plugin's GLSL from its file, errors with file and line");
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<CompileSnippetArguments>();
     command->add_option("file", a->file, "The snippet's first source; #include reaches files beside it")->required();
     command->add_option("--plugin", a->subject.library, "Library of the plugin: classes, constants and buffers come from it");
     command->add_option("--volume", a->subject.files, "A file that the plugin opens");
@@ -106,7 +106,7 @@ void add_compile_snippet(CLI::App& app) {
         ->delimiter(',')
         ->expected(4);
     command->add_flag("--float32", a->in_float32, "With --at: in single precision");
-    command->callback([a] { run(*a); });
+    command->callback([a] { run_compile_snippet(*a); });
 }
 
 } // namespace elvis::commands

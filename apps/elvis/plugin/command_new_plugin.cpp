@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Arguments {
+struct NewPluginArguments {
     std::string name;
     std::string kind = "runtime";
     std::string output;
@@ -55,7 +55,7 @@ void write_file(const fs::path& path, const std::string& text) {
 }
 
 /** Writes the files of template `kind` below `folder`. */
-void write_template(const Arguments& arguments, const std::string& id, std::string_view kind, const fs::path& folder) {
+void write_template(const NewPluginArguments& arguments, const std::string& id, std::string_view kind, const fs::path& folder) {
     const std::string prefix = std::string(kind) + "/";
     for (const auto& file : plugin_templates::files) {
         std::string name = file.name;
@@ -80,7 +80,7 @@ std::string where_elvis_is() {
                : "CMAKE_PREFIX_PATH=" + folder.parent_path().string() + " ";
 }
 
-void run(const Arguments& arguments) {
+void run_new_plugin(const NewPluginArguments& arguments) {
     check_name(arguments.name);
     const std::string id = arguments.id.empty() ? "org.example." + arguments.name : arguments.id;
     const fs::path folder = arguments.output.empty() ? fs::path(arguments.name) : fs::path(arguments.output);
@@ -99,14 +99,14 @@ void run(const Arguments& arguments) {
 void add_new_plugin(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("new-plugin", "Write a small plugin project that builds, passes its tests and draws");
-    auto a = std::make_shared<Arguments>();
+    auto a = std::make_shared<NewPluginArguments>();
     command->add_option("name", a->name, "Name of the plugin: a lower-case identifier such as my_solver")->required();
     command->add_option("--kind", a->kind, "runtime (draws volumes in their own basis) or converter (for the native volume)")
         ->check(CLI::IsMember({"runtime", "converter"}))
         ->capture_default_str();
     command->add_option("--output", a->output, "Folder to write, new or empty (default: NAME)");
     command->add_option("--id", a->id, "Id of the plugin, reverse-domain style (default: org.example.NAME)");
-    command->callback([a] { run(*a); });
+    command->callback([a] { run_new_plugin(*a); });
 }
 
 } // namespace elvis::commands

@@ -4,6 +4,7 @@
  * and stay within their arrays.
  */
 #include <core/base/error.hpp>
+#include <core/base/infinity.hpp>
 #include <core/conformance/checks/device_check_tools.hpp>
 #include <core/shader/poison.hpp>
 
@@ -109,7 +110,6 @@ void check_outside(Context& context) {
 }
 
 std::vector<SamplePoint> hostile_points(const RuntimeVolume& volume, std::uint64_t seed) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const double nan = std::nan("");
     std::vector<SamplePoint> points;
     for (const std::uint64_t element : some_elements(volume, 2, seed)) {

@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/infinity.hpp>
 #include <core/base/vector3.hpp>
 #include <core/convert/blocks.hpp>
 #include <core/convert/topology/corners.hpp>
@@ -16,7 +17,7 @@ namespace elvis {
 namespace {
 
 constexpr std::uint64_t part_size = 4096;
-constexpr std::uint64_t block_size = 65536;
+constexpr std::uint64_t corner_block_size = 65536;
 
 /** Distinct positions, found through a grid of cells much larger than the tolerance. */
 class PositionNumbers {
@@ -101,7 +102,6 @@ private:
 
 void measure_extent(Corners& corners, const CornerPositions& positions, const SourceVolume& source,
                     const TaskControl& control) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Vector3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
     double shortest = infinity;
     std::mutex mutex;
@@ -144,8 +144,8 @@ void take_ids(Corners& corners, const CornerPositions& positions, const SourceVo
     }
     const std::uint64_t n_elements = source.info().n_elements;
     std::vector<elvis_source_element> elements;
-    for (std::uint64_t first = 0; first < n_elements; first += block_size) {
-        elements.resize(std::min(block_size, n_elements - first));
+    for (std::uint64_t first = 0; first < n_elements; first += corner_block_size) {
+        elements.resize(std::min(corner_block_size, n_elements - first));
         source.elements(first, elements.size(), elements);
         for (std::uint64_t index = 0; index < elements.size(); ++index) {
             for (std::size_t corner = 0; corner < positions.n_corners(first + index); ++corner) {
@@ -160,10 +160,10 @@ void number_positions(Corners& corners, const CornerPositions& positions, const 
                       const TaskControl& control) {
     const std::uint64_t n_elements = source.info().n_elements;
     PositionNumbers numbers(corners.tolerance);
-    std::vector<std::vector<Vector3>> block(std::min(block_size, n_elements));
-    for (std::uint64_t first = 0; first < n_elements; first += block_size) {
+    std::vector<std::vector<Vector3>> block(std::min(corner_block_size, n_elements));
+    for (std::uint64_t first = 0; first < n_elements; first += corner_block_size) {
         control.check();
-        const std::uint64_t count = std::min(block_size, n_elements - first);
+        const std::uint64_t count = std::min(corner_block_size, n_elements - first);
         for_each_part(count, part_size, [&](std::uint64_t part_first, std::uint64_t part_last) {
             for (std::uint64_t index = part_first; index < part_last; ++index) {
                 positions.evaluate(first + index, block[index]);

@@ -10,7 +10,7 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint64_t block_size = 8192;
+constexpr std::uint64_t face_block_size = 8192;
 
 /** Rounding of positions: below this part of the largest coordinate two maps are the same. */
 constexpr double round_off = 1e-13;
@@ -63,13 +63,13 @@ public:
     void run() {
         const std::uint64_t n_elements = m_topology.shapes.size();
         std::vector<std::vector<std::vector<double>>> positions(n_workers());
-        const auto last = [&](std::uint64_t block) { return std::min((block + 1) * block_size, n_elements); };
-        for_each_block((n_elements + block_size - 1) / block_size,
+        const auto last = [&](std::uint64_t block) { return std::min((block + 1) * face_block_size, n_elements); };
+        for_each_block((n_elements + face_block_size - 1) / face_block_size,
                        [&](std::uint64_t block, unsigned worker) {
                            m_control.check();
-                           positions[worker].resize(block_size);
-                           for (std::uint64_t element = block * block_size; element < last(block); ++element) {
-                               std::vector<double>& of_element = positions[worker][element - block * block_size];
+                           positions[worker].resize(face_block_size);
+                           for (std::uint64_t element = block * face_block_size; element < last(block); ++element) {
+                               std::vector<double>& of_element = positions[worker][element - block * face_block_size];
                                const std::vector<double>& xi = m_points[m_topology.shapes[element]].xi();
                                of_element.resize(xi.size());
                                m_source.evaluate_mapping(element, xi, of_element);
@@ -78,8 +78,8 @@ public:
                        [&](std::uint64_t block, unsigned worker) {
                            m_control.progress(static_cast<double>(last(block)) / static_cast<double>(n_elements),
                                               "matching faces");
-                           for (std::uint64_t element = block * block_size; element < last(block); ++element) {
-                               add(element, positions[worker][element - block * block_size]);
+                           for (std::uint64_t element = block * face_block_size; element < last(block); ++element) {
+                               add(element, positions[worker][element - block * face_block_size]);
                            }
                        });
     }
@@ -146,8 +146,8 @@ std::vector<FaceSide> unexplained(const SourceVolume& source, const Topology& to
     std::vector<FaceSide> sides;
     std::vector<elvis_source_element> elements;
     const std::uint64_t n_elements = topology.shapes.size();
-    for (std::uint64_t first = 0; first < n_elements; first += block_size) {
-        elements.resize(std::min(block_size, n_elements - first));
+    for (std::uint64_t first = 0; first < n_elements; first += face_block_size) {
+        elements.resize(std::min(face_block_size, n_elements - first));
         source.elements(first, elements.size(), elements);
         for (std::uint64_t element = first; element < first + elements.size(); ++element) {
             for (int local = 0; local < native::n_faces(static_cast<native::Shape>(topology.shapes[element])); ++local) {

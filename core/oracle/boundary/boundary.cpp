@@ -11,7 +11,7 @@ namespace elvis::oracle {
 namespace {
 
 /** Cells along each side of a face. */
-constexpr int n = 24;
+constexpr int n_cells = 24;
 
 /** Corners of the shapes and of their faces as in elvis/element.h. */
 Vector reference_corner(native::Shape shape, int k) {
@@ -58,14 +58,14 @@ Boundary::Boundary(const Volume& volume, std::span<const elvis_face> faces) : m_
         face.along_u = 0.5 * (reference_corner(shape, corners[1] - '0') - face.corner);
         face.along_v = 0.5 * (reference_corner(shape, corners.back() - '0') - face.corner);
         face.middle.setZero();
-        for (int j = 0; j <= n; ++j)
-            for (int i = 0; i <= n; ++i) {
+        for (int j = 0; j <= n_cells; ++j)
+            for (int i = 0; i <= n_cells; ++i) {
                 // Beyond a triangle's edge: the edge.
-                const int k = face.is_triangle ? std::min(j, n - i) : j;
-                face.samples.push_back(point(face, 2.0 * i / n - 1, 2.0 * k / n - 1, nullptr, nullptr));
+                const int k = face.is_triangle ? std::min(j, n_cells - i) : j;
+                face.samples.push_back(point(face, 2.0 * i / n_cells - 1, 2.0 * k / n_cells - 1, nullptr, nullptr));
                 m_lower = m_lower.cwiseMin(face.samples.back());
                 m_upper = m_upper.cwiseMax(face.samples.back());
-                face.middle += face.samples.back() / ((n + 1) * (n + 1));
+                face.middle += face.samples.back() / ((n_cells + 1) * (n_cells + 1));
             }
         for (const Vector& x : face.samples)
             face.radius = std::max(face.radius, (x - face.middle).norm());
@@ -96,14 +96,14 @@ std::optional<Boundary::Hit> Boundary::hit(const Ray& ray) const {
         std::vector<Eigen::Vector2d> seen;
         for (const Vector& x : face.samples)
             seen.emplace_back(across.dot(x - origin), up.dot(x - origin));
-        for (int j = 0; j < n; ++j)
-            for (int i = 0; i < n; ++i) {
-                if (face.is_triangle && i + j > n - 1)
+        for (int j = 0; j < n_cells; ++j)
+            for (int i = 0; i < n_cells; ++i) {
+                if (face.is_triangle && i + j > n_cells - 1)
                     continue;
-                const int k = j * (n + 1) + i;
+                const int k = j * (n_cells + 1) + i;
                 const auto at = [&](int offset) { return seen[static_cast<std::size_t>(k + offset)]; };
                 Eigen::Vector2d lower = at(0), upper = at(0);
-                for (const int offset : {1, n + 1, n + 2}) {
+                for (const int offset : {1, n_cells + 1, n_cells + 2}) {
                     lower = lower.cwiseMin(at(offset));
                     upper = upper.cwiseMax(at(offset));
                 }
@@ -111,7 +111,7 @@ std::optional<Boundary::Hit> Boundary::hit(const Ray& ray) const {
                 const Eigen::Vector2d room = Eigen::Vector2d::Constant(0.3 * (upper - lower).maxCoeff());
                 if ((lower - room).maxCoeff() > 0 || (upper + room).minCoeff() < 0)
                     continue;
-                double u = (2.0 * i + 1) / n - 1, v = (2.0 * j + 1) / n - 1;
+                double u = (2.0 * i + 1) / n_cells - 1, v = (2.0 * j + 1) / n_cells - 1;
                 Vector x, x_u, x_v;
                 double step = 1;
                 for (int turn = 0; turn < 30 && step > 1e-15; ++turn) {
@@ -121,7 +121,7 @@ std::optional<Boundary::Hit> Boundary::hit(const Ray& ray) const {
                     const Eigen::Vector2d f(across.dot(x - origin), up.dot(x - origin));
                     const Eigen::Vector2d d = system.fullPivLu().solve(f);
                     step = d.norm();
-                    const double cut = step > 4.0 / n ? 4.0 / n / step : 1;
+                    const double cut = step > 4.0 / n_cells ? 4.0 / n_cells / step : 1;
                     u -= cut * d.x();
                     v -= cut * d.y();
                 }
@@ -147,7 +147,7 @@ double Boundary::distance(const Vector& position) const {
         const auto nearest =
             std::ranges::min_element(face.samples, {}, [&](const Vector& x) { return (x - position).squaredNorm(); });
         const auto index = static_cast<int>(nearest - face.samples.begin());
-        double u = 2.0 * (index % (n + 1)) / n - 1, v = 2.0 * (index / (n + 1)) / n - 1;
+        double u = 2.0 * (index % (n_cells + 1)) / n_cells - 1, v = 2.0 * (index / (n_cells + 1)) / n_cells - 1;
         if (face.is_triangle)
             v = std::min(v, -u);
         for (int turn = 0; turn < 20; ++turn) {

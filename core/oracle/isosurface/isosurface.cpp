@@ -1,5 +1,7 @@
 #include "isosurface.hpp"
 
+#include <core/base/infinity.hpp>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 namespace elvis::oracle {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t first_degree = 16, last_degree = 128;
 // What a series leaves, relative to the field; rounding of evaluation and inversion is a few 1e-15.
 constexpr double series_tolerance = 2e-13;

@@ -1,5 +1,7 @@
 #include "isosurface_compare.hpp"
 
+#include <core/base/infinity.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,7 +10,6 @@
 namespace elvis::oracle {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Bits by which a pixel says that what it shows may not be right.
 constexpr std::uint32_t uncertain =
     pixel_flag::isosurface_undecided | pixel_flag::newton_failure | pixel_flag::undecided | pixel_flag::work_limit;

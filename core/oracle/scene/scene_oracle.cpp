@@ -1,6 +1,7 @@
 #include "scene_oracle.hpp"
 
 #include "light.hpp"
+#include <core/base/infinity.hpp>
 #include <core/oracle/picture/color.hpp>
 
 #include <Eigen/LU>
@@ -10,8 +11,6 @@
 
 namespace elvis::oracle {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_clipped(const Surface& surface, const Vector& x) {
     return std::ranges::any_of(surface.clip, [&](const std::array<double, 4>& plane) {

@@ -2,6 +2,7 @@
 #include "formula.hpp"
 #include "surface_tracer.hpp"
 
+#include <core/base/infinity.hpp>
 #include <core/surface/quadric_level.hpp>
 
 #include <Eigen/Geometry>
@@ -13,8 +14,6 @@
 
 namespace elvis::oracle {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Vector vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
 

@@ -1,5 +1,6 @@
 #include "volume_integral.hpp"
 
+#include <core/base/infinity.hpp>
 #include <core/oracle/samples/random.hpp>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -16,8 +17,6 @@ namespace elvis::oracle {
 namespace {
 
 using Rgb = Eigen::Array3d;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // What is behind this cannot be seen: it is left out.
 constexpr double least_transmittance = 1e-20;

@@ -1,3 +1,4 @@
+#include <core/base/infinity.hpp>
 #include <core/expression/glsl.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/render/cut_surface/surface_solver.hpp>
@@ -31,8 +32,6 @@ SolverKind kind_of(const std::string& solver) {
     }
     return {solver, {{"CORE_HAS_ENDS", "0"}}};
 }
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Box {
     Vector3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};

@@ -1,4 +1,5 @@
 #include <core/base/in_parts.hpp>
+#include <core/base/infinity.hpp>
 #include <core/expression/glsl.hpp>
 #include <core/render/device/in_batches.hpp>
 #include <core/render/field/field_range.hpp>
@@ -14,7 +15,6 @@ namespace elvis {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /** Elements whose ranges a thread asks for at once. */
 constexpr std::uint64_t ranges_block = 16384;
 constexpr std::uint32_t group_size = 32;

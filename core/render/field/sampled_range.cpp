@@ -1,3 +1,4 @@
+#include <core/base/infinity.hpp>
 #include <core/render/device/in_batches.hpp>
 #include <core/render/field/sampled_range.hpp>
 #include <core/vulkan/real_array.hpp>
@@ -14,7 +15,6 @@ namespace elvis {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t group_size = 32;
 /** Boxes of one dispatch: bounds its time. */
 constexpr std::size_t boxes_a_dispatch = 65536;

@@ -12,9 +12,9 @@ namespace elvis {
 
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-double number_of(const json& value, const std::string& what, const std::string& path) {
+double number_of(const Json& value, const std::string& what, const std::string& path) {
     if (!value.is_number() || !std::isfinite(value.get<double>())) {
         throw Error(path, what + " is " + value.dump() + ", where a number is expected");
     }
@@ -22,7 +22,7 @@ double number_of(const json& value, const std::string& what, const std::string& 
 }
 
 /** A number in [0, 1]. */
-double part_of(const json& value, const std::string& what, const std::string& path) {
+double part_of(const Json& value, const std::string& what, const std::string& path) {
     const double number = number_of(value, what, path);
     if (number < 0 || number > 1) {
         throw Error(path, what + " is " + value.dump() + "; it must be from 0 to 1");
@@ -30,7 +30,7 @@ double part_of(const json& value, const std::string& what, const std::string& pa
     return number;
 }
 
-std::vector<OpacityPoint> opacity_points(const json& preset, const std::string& path) {
+std::vector<OpacityPoint> opacity_points(const Json& preset, const std::string& path) {
     const auto list = preset.find("Points");
     if (list == preset.end() || !list->is_array() || list->empty()) {
         throw Error(path, "has no list Points, from which density comes; without, it serves as a color_map");
@@ -53,12 +53,12 @@ std::vector<OpacityPoint> opacity_points(const json& preset, const std::string& 
     return points;
 }
 
-TransferFunction read_paraview(const json& document, const std::string& path) {
-    const json& preset = document.is_array() && !document.empty() ? document.front() : document;
+TransferFunction read_paraview(const Json& document, const std::string& path) {
+    const Json& preset = document.is_array() && !document.empty() ? document.front() : document;
     // Says what is wrong with the colours.
     const ColorMap map = read_color_map_file(path);
     if (const auto scale = preset.find("UseLogScale");
-        scale != preset.end() && *scale != json(false) && *scale != json(0) && !scale->is_null()) {
+        scale != preset.end() && *scale != Json(false) && *scale != Json(0) && !scale->is_null()) {
         throw Error(path,
                     "has UseLogScale set: transfer functions over the logarithm are not known; take log10(..) as the field");
     }
@@ -95,11 +95,11 @@ TransferFunction read_transfer_file(const std::string& path) {
     if (first == '<') {
         throw Error(path, "is XML; a transfer function is JSON with color and density, or ParaView's JSON with Points");
     }
-    const json document = parse_json_file(path);
+    const Json document = parse_json_file(path);
     if (document.is_array() || document.contains("RGBPoints")) {
         return read_paraview(document, path);
     }
-    static const json schema = json::parse(scene_schema_text()).at("$defs").at("transfer");
+    static const Json schema = Json::parse(scene_schema_text()).at("$defs").at("transfer");
     return read_transfer(JsonObject(document, schema, path, ""));
 }
 

@@ -7,30 +7,30 @@
 
 namespace elvis {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json parse_json_file(const std::string& path) {
+Json parse_json_file(const std::string& path) {
     const std::string content = read_whole_file(path);
     try {
-        return json::parse(content);
-    } catch (const json::parse_error& error) {
+        return Json::parse(content);
+    } catch (const Json::parse_error& error) {
         const std::size_t at = std::min(error.byte == 0 ? 0 : error.byte - 1, content.size());
         const auto line = 1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(at), '\n');
         const std::size_t line_start = content.rfind('\n', at == 0 ? 0 : at - 1);
         const std::size_t column = line_start == std::string::npos ? at + 1 : at - line_start;
         throw Error(path + ":" + std::to_string(line) + ":" + std::to_string(column),
                     "is not JSON: " + std::string(error.what()));
-    } catch (const json::out_of_range& error) {
+    } catch (const Json::out_of_range& error) {
         throw Error(path, "holds a number that is too large: " + std::string(error.what()));
     }
 }
 
-JsonObject::JsonObject(const json& value, const json& schema, std::string file, std::string path)
+JsonObject::JsonObject(const Json& value, const Json& schema, std::string file, std::string path)
     : m_value(&value), m_schema(&schema), m_root_schema(&schema), m_file(std::move(file)), m_path(std::move(path)) {
     if (!value.is_object()) {
         throw Error(m_file, (m_path.empty() ? "the document" : "'" + m_path + "'") + " must be an object in braces");
     }
-    const json& properties = schema.at("properties");
+    const Json& properties = schema.at("properties");
     for (const auto& [key, ignored] : value.items()) {
         if (!properties.contains(key)) {
             std::vector<std::string> known;
@@ -40,7 +40,7 @@ JsonObject::JsonObject(const json& value, const json& schema, std::string file, 
             fail(key, "is unknown; the nearest known key is '" + nearest_word(key, known) + "'");
         }
     }
-    for (const json& required : schema.value("required", json::array())) {
+    for (const Json& required : schema.value("required", Json::array())) {
         if (!value.contains(required.get<std::string>())) {
             fail(required.get<std::string>(), "is missing");
         }
@@ -51,17 +51,17 @@ void JsonObject::fail(const std::string& key, const std::string& what) const {
     throw Error(m_file, "'" + (m_path.empty() ? key : m_path + "." + key) + "' " + what);
 }
 
-const json& JsonObject::schema_of(const char* key) const {
-    const auto follow = [this](const json& schema) -> const json& {
+const Json& JsonObject::schema_of(const char* key) const {
+    const auto follow = [this](const Json& schema) -> const Json& {
         const auto reference = schema.find("$ref");
         return reference == schema.end() ? schema
-                                         : m_root_schema->at(json::json_pointer(reference->get<std::string>().substr(1)));
+                                         : m_root_schema->at(Json::json_pointer(reference->get<std::string>().substr(1)));
     };
-    const json& schema = follow(m_schema->at("properties").at(key));
+    const Json& schema = follow(m_schema->at("properties").at(key));
     if (const auto alternatives = schema.find("anyOf"); alternatives != schema.end()) {
-        for (const json& alternative : *alternatives) {
-            const json& one = follow(alternative);
-            const json& value = m_value->at(key);
+        for (const Json& alternative : *alternatives) {
+            const Json& one = follow(alternative);
+            const Json& value = m_value->at(key);
             if (one.contains(value.is_string() ? "enum" : value.is_array() ? "items" : "properties")) {
                 return one;
             }
@@ -100,15 +100,15 @@ std::string JsonObject::text(const char* key) const {
 }
 
 std::vector<std::string> JsonObject::texts(const char* key) const {
-    const json& list = raw(key);
-    if (!list.is_array() || !std::all_of(list.begin(), list.end(), [](const json& one) { return one.is_string(); })) {
+    const Json& list = raw(key);
+    if (!list.is_array() || !std::all_of(list.begin(), list.end(), [](const Json& one) { return one.is_string(); })) {
         fail(key, "must be a list of texts");
     }
     return list.get<std::vector<std::string>>();
 }
 
 std::string JsonObject::word(const char* key) const {
-    const json& allowed = schema_of(key).at("enum");
+    const Json& allowed = schema_of(key).at("enum");
     if (std::find(allowed.begin(), allowed.end(), raw(key)) == allowed.end()) {
         fail(key, "is " + raw(key).dump() + "; allowed are " + allowed.dump());
     }
@@ -122,7 +122,7 @@ bool JsonObject::flag(const char* key) const {
     return raw(key).get<bool>();
 }
 
-double JsonObject::checked(const json& value, const json& schema, const std::string& key) const {
+double JsonObject::checked(const Json& value, const Json& schema, const std::string& key) const {
     const bool is_integer = schema.value("type", "") == "integer";
     if (is_integer ? !value.is_number_integer() : !value.is_number()) {
         fail(key, "is " + value.dump() + ", where " + (is_integer ? "an integer" : "a number") + " is expected");
@@ -148,7 +148,7 @@ double JsonObject::checked(const json& value, const json& schema, const std::str
 double JsonObject::number(const char* key) const { return checked(raw(key), schema_of(key), key); }
 
 std::uint32_t JsonObject::integer(const char* key) const {
-    const json& schema = schema_of(key);
+    const Json& schema = schema_of(key);
     if (schema.contains("const")) {
         if (raw(key) != schema["const"]) {
             fail(key, "is " + raw(key).dump() + "; this program knows " + schema["const"].dump());
@@ -162,7 +162,7 @@ std::uint32_t JsonObject::integer(const char* key) const {
     return static_cast<std::uint32_t>(value);
 }
 
-std::vector<double> JsonObject::checked_list(const json& value, const json& schema, const std::string& key) const {
+std::vector<double> JsonObject::checked_list(const Json& value, const Json& schema, const std::string& key) const {
     const std::size_t least = schema.value("minItems", std::size_t{0});
     const std::size_t most = schema.value("maxItems", std::size_t{1} << 30);
     if (!value.is_array() || value.size() < least || value.size() > most) {
@@ -171,7 +171,7 @@ std::vector<double> JsonObject::checked_list(const json& value, const json& sche
     }
     std::vector<double> list;
     const auto own_schemas = schema.find("prefixItems");
-    for (const json& item : value) {
+    for (const Json& item : value) {
         list.push_back(checked(item, own_schemas != schema.end() ? own_schemas->at(list.size()) : schema.at("items"), key));
     }
     return list;
@@ -180,12 +180,12 @@ std::vector<double> JsonObject::checked_list(const json& value, const json& sche
 std::vector<double> JsonObject::numbers(const char* key) const { return checked_list(raw(key), schema_of(key), key); }
 
 std::vector<std::vector<double>> JsonObject::rows(const char* key) const {
-    const json& schema = schema_of(key);
+    const Json& schema = schema_of(key);
     if (!raw(key).is_array() || raw(key).size() < schema.value("minItems", std::size_t{0})) {
         fail(key, raw(key).is_array() ? "is empty" : "must be a list of lists");
     }
     std::vector<std::vector<double>> result;
-    for (const json& row : raw(key)) {
+    for (const Json& row : raw(key)) {
         result.push_back(checked_list(row, schema.at("items"), std::string(key) + "[" + std::to_string(result.size()) + "]"));
     }
     return result;

@@ -1,3 +1,4 @@
+#include <core/base/infinity.hpp>
 #include <core/volume/element/jacobian_check.hpp>
 
 #include <core/volume/element/flat_height.hpp>
@@ -44,7 +45,6 @@ JacobianCheck sample(const RuntimeVolume& volume, std::uint64_t element, const s
                      std::vector<double>& jacobians) {
     jacobians.resize(3 * xi.size());
     volume.evaluate_mapping(element, xi, {}, jacobians);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool is_flat = volume.dimension() == 2;
     JacobianCheck check{ELVIS_JACOBIAN_POSITIVE, {}, infinity, 0};
     for (std::size_t point = 0; point < xi.size() / 3; ++point) {

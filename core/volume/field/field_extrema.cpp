@@ -1,3 +1,4 @@
+#include <core/base/infinity.hpp>
 #include <core/volume/field/field_extrema.hpp>
 #include <core/volume/field/weighted_derivatives.hpp>
 
@@ -18,7 +19,6 @@ namespace {
 
 using native::Point;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t elements_at_once = 16384;
 /** Points that may be looked at for one extremum before the bound is left as it is: some seconds. */
 constexpr std::uint64_t most_points = 1u << 22;

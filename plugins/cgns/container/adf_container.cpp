@@ -1,5 +1,7 @@
 #include "adf_container.hpp"
 
+#include "trimmed.hpp"
+
 #include <elvis/plugin.hpp>
 
 #include <algorithm>
@@ -33,12 +35,6 @@ constexpr std::size_t name_at = 4, name_size = 32, label_at = name_at + name_siz
 
 /** Mark and pointer to the end, before what a table or a run of data holds. */
 constexpr std::uint64_t frame_size = 4 + pointer_digits;
-
-std::string trimmed(std::string text) {
-    text.resize(std::min(text.find('\0'), text.size()));
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text;
-}
 
 std::size_t size_of(const std::string& type) {
     return type == "C1"                                   ? 1

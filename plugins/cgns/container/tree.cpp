@@ -2,6 +2,7 @@
 
 #include "adf_container.hpp"
 #include "hdf_container.hpp"
+#include "trimmed.hpp"
 
 #include <elvis/plugin.hpp>
 
@@ -15,12 +16,6 @@ namespace {
 
 /** Links to links: more than this only go round in circles. */
 constexpr int most_links = 16;
-
-std::string trimmed(std::string text) {
-    text.resize(std::min(text.find('\0'), text.size()));
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text;
-}
 
 } // namespace
 

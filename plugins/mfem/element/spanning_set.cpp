@@ -1,5 +1,7 @@
 #include "spanning_set.hpp"
 
+#include "index.hpp"
+
 #include <elvis/native/space.hpp>
 
 #include <algorithm>
@@ -13,8 +15,6 @@ namespace {
 namespace native = elvis::native;
 
 using Line = std::array<double, max_order + 2>;
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /** Legendre polynomials P_0 .. P_n of x/t scaled by t^i: homogeneous in x, t; x in [0, t] is mapped to [-1, 1]. */
 Line scaled_legendre(int n, double x, double t) {

@@ -1,6 +1,7 @@
 // MFEM, mesh/nurbs.cpp: NURBSExtension::GenerateOffsets, NURBSPatchMap.
 #include "patch_lattice.hpp"
 
+#include "../element/index.hpp"
 #include "../element/space.hpp"
 #include "../grid_curve.hpp"
 
@@ -11,8 +12,6 @@
 namespace elvis_mfem {
 
 namespace {
-
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /** Inner points in a direction. */
 int n_inner(const LatticeSize& size, std::size_t axis) { return size[axis] - 2; }

@@ -12,7 +12,7 @@ namespace {
 
 /** Bends of lines of nodes are evidence if they differ by more than this factor; edges that are much longer than apart may not.
  */
-constexpr double clear_ratio = 1.2;
+constexpr double clear_overlap_ratio = 1.2;
 
 using Vector = std::array<double, 3>;
 
@@ -53,8 +53,8 @@ struct Evidence {
     double standard = 0;
     double other = 0;
 
-    bool is_clearly_other() const { return standard > clear_ratio * other; }
-    bool is_clearly_standard() const { return other > clear_ratio * standard; }
+    bool is_clearly_other() const { return standard > clear_overlap_ratio * other; }
+    bool is_clearly_standard() const { return other > clear_overlap_ratio * standard; }
 };
 
 bool has_old_order(const CellKind& kind) {

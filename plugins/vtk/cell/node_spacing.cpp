@@ -14,7 +14,7 @@ namespace {
 /** Edges that are looked at: enough for a vote, few enough to take no time. */
 constexpr std::size_t most_edges = 20000;
 /** An edge tells if it fits one spacing better than another by this factor of squares: on straight ones it is above 1e10. */
-constexpr double clear_ratio = 4;
+constexpr double clear_spacing_ratio = 4;
 /** Votes for one spacing against those for the other, since edges may be graded as if their nodes were others. */
 constexpr double majority = 3;
 
@@ -139,9 +139,9 @@ private:
             chebyshev += fits->chebyshev.residual(x);
         }
         const double other = std::min(lobatto, chebyshev);
-        if (clear_ratio * equidistant < other) {
+        if (clear_spacing_ratio * equidistant < other) {
             ++votes.equidistant;
-        } else if (clear_ratio * other < equidistant) {
+        } else if (clear_spacing_ratio * other < equidistant) {
             ++votes.other;
             votes.lobatto += lobatto / length;
             votes.chebyshev += chebyshev / length;

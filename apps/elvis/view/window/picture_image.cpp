@@ -1,5 +1,7 @@
 #include "picture_image.hpp"
 
+#include "place.hpp"
+
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
 
@@ -10,8 +12,6 @@
 namespace elvis::view {
 
 namespace {
-
-constexpr const char* place = "window";
 
 VkDeviceMemory allocate(VkPhysicalDevice physical, VkDevice device, const VkMemoryRequirements& needs,
                         VkMemoryPropertyFlags properties) {

@@ -1,6 +1,7 @@
 #include "presenter.hpp"
 
 #include "picture_image.hpp"
+#include "place.hpp"
 #include "swapchain.hpp"
 
 #include <core/base/error.hpp>
@@ -18,8 +19,6 @@
 namespace elvis::view {
 
 namespace {
-
-constexpr const char* place = "window";
 
 /** ImGui's backend knows no other way to report. */
 void check_backend(VkResult result) {

@@ -1,5 +1,7 @@
 #include "surface_device.hpp"
 
+#include "place.hpp"
+
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_choice.hpp>
@@ -16,8 +18,6 @@
 namespace elvis::view {
 
 namespace {
-
-constexpr const char* place = "window";
 
 /** A family with graphics that can present to the surface, if the device has one. */
 std::optional<std::uint32_t> queue_family(VkPhysicalDevice device, VkSurfaceKHR surface) {

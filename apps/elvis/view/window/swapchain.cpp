@@ -1,17 +1,13 @@
 #include "swapchain.hpp"
 
+#include "place.hpp"
+
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
 
 #include <algorithm>
 
 namespace elvis::view {
-
-namespace {
-
-constexpr const char* place = "window";
-
-} // namespace
 
 VkSurfaceFormatKHR display_format(VkPhysicalDevice device, VkSurfaceKHR surface) {
     std::uint32_t count = 0;

@@ -1,6 +1,7 @@
 #include "bernstein_tables.hpp"
 
 #include "bernstein.hpp"
+#include "numbers.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -74,7 +75,6 @@ BernsteinTables::BernsteinTables(const Space& space) {
     // Additions of the three sums, three products, one unit for each of three matrices, two for the final subtraction; 8 more
     // for the roundings of the bound itself.
     const auto n_roundings = static_cast<double>(longest + largest_group + groups.size() + 3 + 3 + 2 + 8);
-    constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
     // The sum of n terms |c| w is itself low by at most n units.
     const double slack = 1 + static_cast<double>(weights.size() + 4) * 2 * unit;
     gamma = n_roundings * unit / (1 - n_roundings * unit) * slack;

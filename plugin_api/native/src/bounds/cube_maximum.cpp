@@ -1,5 +1,7 @@
 #include "cube_maximum.hpp"
 
+#include "numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 namespace elvis::native {
 namespace {
 
-constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
 /** Some hundreds suffice unless nearly the largest value is taken along a whole line or surface inside the element. */
 constexpr std::size_t max_parts = 8192;
 

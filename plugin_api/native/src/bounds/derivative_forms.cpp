@@ -1,18 +1,13 @@
 #include "derivative_forms.hpp"
 
 #include "../file/runs.hpp"
+#include "numbers.hpp"
 
 #include <cassert>
 #include <cmath>
 #include <limits>
 
 namespace elvis::native {
-namespace {
-
-constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-
-} // namespace
-
 Sizes storage_places(Shape shape) {
     const Directions axis = directions(shape);
     Sizes places{};

@@ -1,6 +1,7 @@
 #include "derivative_weights.hpp"
 
 #include "../basis/jets.hpp"
+#include "numbers.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +16,6 @@ namespace elvis::native::device {
 namespace {
 
 using native::Shape;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /** Nodes for each degree: the bounds are too large by 1/cos(pi/32) = 1.005 at most. */
 constexpr int nodes_per_degree = 16;

@@ -1,5 +1,7 @@
 #include "determinant_form.hpp"
 
+#include "numbers.hpp"
+
 #include <limits>
 
 namespace elvis::native {
@@ -60,7 +62,6 @@ DeterminantForm::DeterminantForm(const std::array<DerivativeForms::Column, 3>& c
     const std::size_t degree = m_sizes[0] + m_sizes[1] + m_sizes[2];
     const std::size_t n_binomials = *std::max_element(m_sizes.begin(), m_sizes.end()) <= 50 ? 0 : 2 * degree * 2;
     const auto n_roundings = static_cast<double>(n_binomials + 4 * 3 + 4 + n_cross + 2 + n_dot + 3 + 2);
-    constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
     m_gamma = n_roundings * unit / (1 - n_roundings * unit) * (1 + 100 * unit);
 }
 

@@ -2,6 +2,7 @@
 
 #include "bernstein_tables.hpp"
 #include "cube_maximum.hpp"
+#include "numbers.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -11,9 +12,8 @@
 namespace elvis::native {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /** Elements that are read at once in the second round. */
-constexpr std::uint64_t block_size = 1024;
+constexpr std::uint64_t elements_at_once = 1024;
 
 struct ElementPlace {
     std::size_t element_class = 0;
@@ -158,7 +158,7 @@ void ExtremaSearch::Impl::add(std::size_t element_class, std::uint64_t first, st
         }
     }
     for (Side& side : m_sides)
-        if (side.candidates.size() > 2 * side.n_after_pruning + block_size)
+        if (side.candidates.size() > 2 * side.n_after_pruning + elements_at_once)
             side.prune(0);
 }
 
@@ -166,7 +166,7 @@ std::vector<ElementPlace> ExtremaSearch::Impl::blocks_to_read() const {
     std::vector<ElementPlace> blocks;
     for (const Side& side : m_sides)
         for (const Candidate& candidate : side.candidates)
-            blocks.push_back({candidate.place.element_class, candidate.place.element / block_size});
+            blocks.push_back({candidate.place.element_class, candidate.place.element / elements_at_once});
     std::sort(blocks.begin(), blocks.end());
     blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
     return blocks;
@@ -190,12 +190,12 @@ void ExtremaSearch::Impl::search_block(const ElementPlace& block, const Read& re
     };
     std::vector<Wanted> wanted;
     std::uint64_t first = std::numeric_limits<std::uint64_t>::max(), end = 0;
-    const ElementPlace start{block.element_class, block.element * block_size};
+    const ElementPlace start{block.element_class, block.element * elements_at_once};
     for (std::size_t index = 0; index < m_sides.size(); ++index) {
         const std::vector<Candidate>& all = m_sides[index].candidates;
         for (auto candidate = std::ranges::lower_bound(all, start, {}, &Candidate::place);
              candidate != all.end() && candidate->place.element_class == start.element_class &&
-             candidate->place.element < start.element + block_size;
+             candidate->place.element < start.element + elements_at_once;
              ++candidate) {
             wanted.push_back({index, *candidate});
             first = std::min(first, candidate->place.element);

@@ -11,6 +11,7 @@
 #include "../file/runs.hpp"
 #include "derivative_forms.hpp"
 #include "determinant_form.hpp"
+#include "numbers.hpp"
 #include "subdivision.hpp"
 
 #include <elvis/native/jacobian.hpp>
@@ -24,8 +25,6 @@ namespace elvis::native {
 namespace {
 
 constexpr std::size_t lanes = 8;
-constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /** Products of three numbers stay clear of overflow and of what underflow could spoil (at most 5e-324 a product). */
 constexpr double smallest_product = 1e-260;

@@ -1,5 +1,7 @@
 #include "node_bounds.hpp"
 
+#include "numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -60,7 +62,6 @@ std::size_t NodeBounds::workspace_of(const Grid& grid) {
 
 NodeBounds::NodeBounds(const Sizes& sizes) {
     std::array<std::size_t, 3> few{}, many{};
-    constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
     for (std::size_t place = 0; place < 3; ++place) {
         const std::size_t degree = sizes[place] - 1;
         few[place] = std::min<std::size_t>(degree, 2);

@@ -6,6 +6,7 @@
 #include "../file/runs.hpp"
 #include "bernstein_tables.hpp"
 #include "node_bounds.hpp"
+#include "numbers.hpp"
 
 #include <cassert>
 #include <cmath>
@@ -26,8 +27,6 @@ struct RangeBounder::Tables {
 };
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::shared_ptr<const RangeBounder::Tables> tables_of(const Space& space) {
     static std::mutex mutex;

@@ -1,5 +1,7 @@
 #include "subdivision.hpp"
 
+#include "numbers.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 namespace elvis::native {
 namespace {
 
-constexpr double unit = std::numeric_limits<double>::epsilon() / 2;
 /** Numbers that an element's parts may take: 256 MB. */
 constexpr std::size_t max_numbers = std::size_t{1} << 25;
 

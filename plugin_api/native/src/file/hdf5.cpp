@@ -13,7 +13,7 @@ namespace {
 /** Bytes of a chunk: large enough to compress well, small enough to be read for the sake of a few elements. */
 constexpr std::size_t chunk_bytes = 128 * 1024;
 /** Fast, and on shuffled coefficients within a few percent of the best. */
-constexpr unsigned deflate_level = 1;
+constexpr unsigned compression_level = 1;
 
 herr_t keep_innermost(unsigned, const H5E_error2_t* error, void* text) {
     auto& message = *static_cast<std::string*>(text);
@@ -176,7 +176,7 @@ Handle create_dataset(const Handle& parent, const std::string& name, hid_t type,
     const Handle list(check(H5Pcreate(H5P_DATASET_CREATE), here, "no memory"), H5Pclose);
     check(H5Pset_chunk(list.id(), rank, chunk.data()), here, "cannot be cut into chunks");
     check(H5Pset_shuffle(list.id()), here, "cannot be shuffled");
-    check(H5Pset_deflate(list.id(), deflate_level), here, "cannot be compressed");
+    check(H5Pset_deflate(list.id(), compression_level), here, "cannot be compressed");
     check(H5Pset_fletcher32(list.id()), here, "cannot be checksummed");
     return {check(H5Dcreate2(parent.id(), name.c_str(), type, space.id(), H5P_DEFAULT, list.id(), H5P_DEFAULT), here,
                   "cannot be created"),

@@ -10,11 +10,6 @@
 namespace elvis::native_plugin {
 namespace {
 
-/** Elements that are read at once (about 4 MB), between two looks at the user's wish to stop. */
-std::uint64_t elements_at_once(std::size_t numbers_per_element) {
-    return std::max<std::uint64_t>(1, (std::size_t{1} << 19) / numbers_per_element);
-}
-
 /** Points in every collapsed direction for ranges that cannot be certified. */
 constexpr int samples_per_direction = 6;
 

@@ -13,11 +13,6 @@
 namespace elvis::native_plugin {
 namespace {
 
-/** Elements that are read and converted at once: about 4 MB. */
-std::uint64_t elements_at_once(std::size_t numbers_per_element) {
-    return std::max<std::uint64_t>(1, (std::size_t{1} << 19) / numbers_per_element);
-}
-
 /** Writes modes into a record with `width` interleaved numbers a mode; `record` starts at the number of interest. */
 void scatter(const DeviceSpace& space, std::size_t width, std::span<const double> modes, double* record) {
     const std::size_t slab_numbers = 4 * space.slab_rows(width);

@@ -13,6 +13,7 @@
 #include <elvis/native/volume_source.hpp>
 #include <elvis/plugin.hpp>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -101,6 +102,10 @@ private:
 
     /** Calls visit(element_class, first local, count, offset of the first in the request) for runs of elements of one class. */
     template <class Visit> void for_each_run(std::uint64_t first, std::uint64_t count, Visit visit) const;
+    /** Elements that are read at once, between two looks at the user's wish to stop: about 4 MB. */
+    static std::uint64_t elements_at_once(std::size_t numbers_per_element) {
+        return std::max<std::uint64_t>(1, (std::size_t{1} << 19) / numbers_per_element);
+    }
     /** Calls visit(first, count) for one block after the other, unless the host wants to stop. */
     template <class Visit> void for_each_block(std::uint64_t n, std::uint64_t block, Visit visit) const {
         for (std::uint64_t first = 0; first < n; first += block) {

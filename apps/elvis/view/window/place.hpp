@@ -1,0 +1,8 @@
+// Where errors of this folder say that they happened.
+#pragma once
+
+namespace elvis::view {
+
+inline constexpr const char* place = "window";
+
+} // namespace elvis::view
