@@ -8,6 +8,7 @@
 #include <core/integrate/domain_parts.hpp>
 #include <core/integrate/polynomial_degree.hpp>
 #include <core/plugin_host/plugin.hpp>
+#include <core/probe/element_finder.hpp>
 #include <core/volume/boundary/element_faces.hpp>
 
 #include <algorithm>
@@ -304,10 +305,29 @@ private:
 
     /** Where a surface ends: in a face without neighbour. Boundaries end where the chosen faces do. */
     bool is_in_rim(const ElementCells& element, const MergedTriangle& triangle, std::size_t side) const {
-        const bool is_solid_boundary = m_request.surface == Surface::boundary && m_volume.dimension() == 3;
-        const bool knows_faces = m_volume.n_faces() > 0;
-        return is_solid_boundary ||
-               (knows_faces && (faces_of_side(element, triangle, side) & m_outer_faces[element.element()]) != 0);
+        if (m_request.surface == Surface::boundary && m_volume.dimension() == 3) {
+            return true;
+        }
+        const std::uint32_t faces = faces_of_side(element, triangle, side);
+        if (m_volume.n_faces() == 0 || (faces & m_outer_faces[element.element()]) != 0) {
+            return m_volume.n_faces() > 0;
+        }
+        // In an edge of the element: the outer face there may be another element's.
+        return std::popcount(faces) > 1 && is_on_outer_face(scaled(plus(element.points()[triangle.points[side]].position,
+                                                                        element.points()[triangle.points[(side + 1) % 3]].position),
+                                                                   0.5));
+    }
+
+    bool is_on_outer_face(const Vector3& position) const {
+        // What Newton's method leaves of reference coordinates.
+        constexpr double rounding = 1e-7;
+        if (!m_finder) {
+            m_finder.emplace(m_volume);
+        }
+        return std::ranges::any_of(m_finder->holders(m_volume, position), [&](const ReferencePoint& place) {
+            const elvis_shape shape = m_volume.classes()[class_of(place.element)].shape;
+            return (shape_faces(shape).holding(place.xi, rounding) & m_outer_faces[place.element]) != 0;
+        });
     }
 
     void fill_lines(const CellMesh& cells, const ContourLines& contours, SurfaceMesh& mesh) const {
@@ -336,6 +356,8 @@ private:
     std::vector<DomainPart> m_parts;
     std::optional<SurfaceSampler> m_sampler;
     std::uint64_t m_n_elements = 0;
+    /** Made when it is first asked. */
+    mutable std::optional<ElementFinder> m_finder;
 };
 
 } // namespace

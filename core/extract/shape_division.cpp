@@ -80,9 +80,7 @@ std::vector<Corners> cone(elvis_shape shape, std::uint32_t tip, std::span<const 
 
 } // namespace
 
-std::uint32_t ShapeFaces::holding(const Vector3& xi) const {
-    // Points of faces are means of others, so that rounding alone takes them off.
-    constexpr double rounding = 1e-12;
+std::uint32_t ShapeFaces::holding(const Vector3& xi, double rounding) const {
     std::uint32_t faces = 0;
     for (std::size_t face = 0; face < normals.size(); ++face) {
         faces |= std::abs(dot(normals[face], xi) - offsets[face]) < rounding ? 1u << face : 0u;

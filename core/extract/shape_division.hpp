@@ -20,8 +20,8 @@ struct ShapeFaces {
     std::vector<Vector3> normals;
     std::vector<double> offsets;
 
-    /** Bit i: the point is in the plane of face i, but for rounding. */
-    std::uint32_t holding(const Vector3& xi) const;
+    /** Bit i: the point is in the plane of face i, but for rounding; points of faces are means of others. */
+    std::uint32_t holding(const Vector3& xi, double rounding = 1e-12) const;
 };
 const ShapeFaces& shape_faces(elvis_shape shape);
 

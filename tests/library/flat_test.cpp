@@ -1,6 +1,6 @@
 // Volumes of two dimensions: points, lines, integrals, heights.
 
-#include <elvis/elvis.hpp>
+#include <elvis/extract.hpp>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -131,6 +131,34 @@ elvis_integration over(elvis_domain domain, const char* field, bool is_flux = fa
 }
 
 } // namespace
+
+TEST_CASE("Elements of two dimensions are a mesh, and lines on them contours") {
+    const context library = own_context();
+    const data flat = bent_rectangle(library);
+    auto wanted = detail::sized<elvis_extraction>();
+    wanted.domain = ELVIS_DOMAIN_BOUNDARY;
+    const extracted all = extract(library, flat, wanted);
+    CHECK(all.info.n_triangles > 12);
+    CHECK(all.info.n_branching_edges == 0);
+    CHECK(all.info.euler_number == 1);
+    CHECK(all.info.surface_to_mesh <= all.info.tolerance);
+    CHECK(std::abs(all.normals[2]) == 1);
+
+    // x y + x = 1.
+    wanted.domain = ELVIS_DOMAIN_ISOSURFACE;
+    wanted.level_field = "p";
+    wanted.isovalue = 1;
+    const extracted line = extract(library, flat, wanted);
+    REQUIRE(line.info.n_lines == 1);
+    CHECK(line.info.n_triangles == 0);
+    double off = 0;
+    for (std::size_t i = 0; i < line.info.n_vertices; ++i) {
+        const double x = line.positions[3 * i], y = line.positions[3 * i + 1];
+        off = std::max(off, std::abs(x * y + x - 1));
+    }
+    CHECK(off < 1e-11);
+    CHECK(line.info.surface_to_mesh <= line.info.tolerance);
+}
 
 TEST_CASE("Points of a plane are found in bent elements, with values and gradients") {
     const context library = own_context();

@@ -36,7 +36,7 @@ struct ExtractArguments {
     std::string output;
 };
 
-std::vector<elvis_string> pointers(const std::vector<std::string>& texts) {
+std::vector<elvis_string> c_texts(const std::vector<std::string>& texts) {
     std::vector<elvis_string> all;
     for (const std::string& text : texts) {
         all.push_back(text.c_str());
@@ -69,7 +69,7 @@ void check_extract(const ExtractArguments& arguments) {
 
 extracted mesh_of(const context& library, const data& volume, const ExtractArguments& arguments) {
     const std::string& level_field = arguments.level_field.empty() ? arguments.field : arguments.level_field;
-    const std::vector<elvis_string> groups = pointers(arguments.groups), values = pointers(arguments.values);
+    const std::vector<elvis_string> groups = c_texts(arguments.groups), values = c_texts(arguments.values);
     std::vector<double> contours;
     if (!arguments.contours.empty()) {
         contours = numbers("--contours", arguments.contours, 1, std::numeric_limits<std::size_t>::max());
@@ -112,7 +112,7 @@ std::vector<MeshColumn> mesh_columns(const data& volume, const std::vector<std::
     return columns;
 }
 
-void print_json(const elvis_mesh_info& info) {
+void print_mesh_json(const elvis_mesh_info& info) {
     const bool has_lines = info.n_lines > 0;
     nlohmann::ordered_json answer = {{"vertices", info.n_vertices}, {"triangles", info.n_triangles}, {"lines", info.n_lines}};
     answer[has_lines ? "length" : "area"] = info.measure;
@@ -133,7 +133,7 @@ void print_json(const elvis_mesh_info& info) {
     std::printf("%s\n", answer.dump(2).c_str());
 }
 
-void print_report(const elvis_mesh_info& info, const std::string& path) {
+void print_mesh_report(const elvis_mesh_info& info, const std::string& path) {
     if (info.n_lines > 0) {
         std::printf("%s of %s written to %s\n", counted(info.n_lines, "line").c_str(),
                     counted(info.n_vertices, "point").c_str(), path.c_str());
@@ -187,7 +187,7 @@ void run_extract(const ExtractArguments& arguments) {
     } else {
         write_glb(mesh, columns, arguments.output);
     }
-    arguments.is_json ? print_json(mesh.info) : print_report(mesh.info, arguments.output);
+    arguments.is_json ? print_mesh_json(mesh.info) : print_mesh_report(mesh.info, arguments.output);
     say_extract_doubts(mesh.info);
 }
 
