@@ -313,9 +313,10 @@ private:
             return m_volume.n_faces() > 0;
         }
         // In an edge of the element: the outer face there may be another element's.
-        return std::popcount(faces) > 1 && is_on_outer_face(scaled(plus(element.points()[triangle.points[side]].position,
-                                                                        element.points()[triangle.points[(side + 1) % 3]].position),
-                                                                   0.5));
+        return std::popcount(faces) > 1 &&
+               is_on_outer_face(scaled(plus(element.points()[triangle.points[side]].position,
+                                            element.points()[triangle.points[(side + 1) % 3]].position),
+                                       0.5));
     }
 
     bool is_on_outer_face(const Vector3& position) const {
