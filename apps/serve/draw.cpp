@@ -32,7 +32,9 @@ json remarks_json(const picture& drawn) {
 }
 
 json facts_of_picture(const picture& drawn, const elvis_picture_info& info) {
-    return {{"size", {info.width, info.height}}, {"counts", json::parse(drawn.stats())["counts"]}, {"remarks", remarks_json(drawn)}};
+    return {{"size", {info.width, info.height}},
+            {"counts", json::parse(drawn.stats())["counts"]},
+            {"remarks", remarks_json(drawn)}};
 }
 
 } // namespace

@@ -47,7 +47,8 @@ Response refusal(const Request& request, http::status status, std::string_view t
 
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 public:
-    HttpConnection(Hall& hall, boost::asio::ip::tcp::socket socket) : m_hall(hall), m_counted(hall), m_stream(std::move(socket)) {}
+    HttpConnection(Hall& hall, boost::asio::ip::tcp::socket socket)
+        : m_hall(hall), m_counted(hall), m_stream(std::move(socket)) {}
 
     void read() {
         m_parser.emplace();

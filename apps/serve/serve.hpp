@@ -32,7 +32,8 @@ struct Options {
  * Opens the volume, tells `on_url` where the page is, and serves until an interrupt or a polite kill. `open` makes data of a
  * function that takes a task. Throws std::exception.
  */
-void run(const context& library, const Options& options, const std::function<data(const std::function<data(const task&)>&)>& open,
+void run(const context& library, const Options& options,
+         const std::function<data(const std::function<data(const task&)>&)>& open,
          const std::function<void(const std::string& url)>& on_url);
 
 } // namespace elvis::serve

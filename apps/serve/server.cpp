@@ -139,7 +139,8 @@ private:
 
 } // namespace
 
-void run(const context& library, const Options& options, const Open& open, const std::function<void(const std::string&)>& on_url) {
+void run(const context& library, const Options& options, const Open& open,
+         const std::function<void(const std::string&)>& on_url) {
     Server server(open_served(library, options, open), options);
     on_url(server.url());
     server.run();

@@ -56,6 +56,7 @@ void Session::stop() {
 
 void Session::attach(Send send) {
     const std::lock_guard lock(m_mutex);
+    this->send({{"type", "taken"}});
     m_send = std::move(send);
     m_unconfirmed.clear();
     m_line = {};
@@ -145,7 +146,7 @@ void Session::do_task(std::unique_lock<std::mutex>& lock) {
     send({{"type", "activity"}, {"text", task.activity}});
     lock.unlock();
     Json message = std::move(task.answer);
-    Encoded result;
+    Encoded result{Json::object(), {}};
     try {
         const Urgent urgent(*m_served, true);
         result = task.job(task.scene, {{}, [this] { return m_cancelled.load(); }});
@@ -247,7 +248,7 @@ Session::Json Session::shown(const Json& message) {
         m_unconfirmed.pop_front();
     }
     m_changed.notify_all();
-    return {};
+    return Json::object();
 }
 
 void Session::adapt(double milliseconds) {

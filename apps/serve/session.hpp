@@ -65,7 +65,7 @@ private:
         std::uint64_t frame = 0;
         Clock::time_point sent;
     };
-    /** What one kind of message does; returns what the answer holds. */
+    /** What one kind of message does; returns what the answer holds, null if that comes later. */
     using Handler = Json (Session::*)(const Json& message);
     static Handler handler_of(const std::string& type);
 

@@ -24,7 +24,8 @@ constexpr std::size_t most_tasks = 16;
 
 double number(const json& message, const char* key, double least, double most) {
     const json& value = message.at(key);
-    if (!value.is_number() || !std::isfinite(value.get<double>()) || value.get<double>() < least || value.get<double>() > most) {
+    if (!value.is_number() || !std::isfinite(value.get<double>()) || value.get<double>() < least ||
+        value.get<double>() > most) {
         throw Error("'" + std::string(key) + "' is no number from " + json(least).dump() + " to " + json(most).dump());
     }
     return value.get<double>();
@@ -37,7 +38,9 @@ std::array<std::uint32_t, 2> size_of(const json& message) {
             static_cast<std::uint32_t>(number(message, "height", 1, most_pixels_across))};
 }
 
-PictureSize picture_size(const Scene& scene) { return {static_cast<double>(scene.size[0]), static_cast<double>(scene.size[1])}; }
+PictureSize picture_size(const Scene& scene) {
+    return {static_cast<double>(scene.size[0]), static_cast<double>(scene.size[1])};
+}
 
 Vector3 vector_of(const json& message, const char* key) {
     const auto numbers = message.at(key).get<std::vector<double>>();
@@ -106,7 +109,7 @@ void Session::receive(std::string_view text) {
             m_echo = message["time"].is_number() ? message["time"] : Json();
         }
         Json answer = (this->*handler_of(message.at("type").get<std::string>()))(message);
-        if (!answer.is_null()) {
+        if (!answer.is_null() && !id.is_null()) {
             answer["type"] = "answer";
             answer["id"] = id;
             send(answer);
@@ -122,7 +125,7 @@ Session::Json Session::resize(const Json& message) {
         changed(false);
         send(state());
     }
-    return {};
+    return Json::object();
 }
 
 void Session::move_camera(const Camera& camera) {
@@ -139,23 +142,23 @@ void Session::move_camera(const Camera& camera) {
 
 Session::Json Session::orbit(const Json& message) {
     move_camera(view::orbited(m_model.camera(), picture_size(m_model.scene()), {pixels(message, "dx"), pixels(message, "dy")}));
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::pan(const Json& message) {
     move_camera(view::panned(m_model.camera(), picture_size(m_model.scene()), {pixels(message, "dx"), pixels(message, "dy")}));
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::zoom(const Json& message) {
     move_camera(view::zoomed(m_model.camera(), picture_size(m_model.scene()), {pixels(message, "x"), pixels(message, "y")},
                              number(message, "factor", 0.01, 100)));
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::roll(const Json& message) {
     move_camera(view::rolled(m_model.camera(), number(message, "degrees", -360, 360)));
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::look_from(const Json& message) {
@@ -173,14 +176,14 @@ Session::Json Session::look_from(const Json& message) {
         m_model.set_camera(view::from_standard_view(m_model.camera(), *found, extent, room));
     }
     changed(false);
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::project(const Json& message) {
     m_model.set_camera(view::with_projection(m_model.camera(), message.at("orthographic").get<bool>()));
     changed(false);
     send(state());
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::place_camera(const Json& message) {
@@ -193,14 +196,14 @@ Session::Json Session::place_camera(const Json& message) {
         throw Error("'up' is parallel to the view");
     }
     move_camera(camera);
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::release(const Json&) {
     m_model.end_gesture();
     m_schedule.release();
     m_changed.notify_all();
-    return {};
+    return Json::object();
 }
 
 Session::Json Session::page_json() const { return Json::parse(scene_json(m_model.scene(), m_served->page_scene).dump()); }

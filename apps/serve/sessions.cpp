@@ -12,7 +12,8 @@ std::shared_ptr<Session> Sessions::find_or_make(const std::string& id) {
     if (m_entries.size() >= m_most) {
         auto oldest = m_entries.end();
         for (auto entry = m_entries.begin(); entry != m_entries.end(); ++entry) {
-            if (entry->second.page == nullptr && (oldest == m_entries.end() || entry->second.detached < oldest->second.detached)) {
+            if (entry->second.page == nullptr &&
+                (oldest == m_entries.end() || entry->second.detached < oldest->second.detached)) {
                 oldest = entry;
             }
         }

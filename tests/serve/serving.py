@@ -4,6 +4,7 @@ import re
 import signal
 import subprocess
 import threading
+import time
 import urllib.error
 import urllib.request
 
@@ -93,11 +94,13 @@ class Page:
                 self.tell(type="shown", frame=message["frame"])
         return message
 
-    def wait(self, is_wanted):
-        while True:
+    def wait(self, is_wanted, seconds=60):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
             message = self.receive()
             if is_wanted(message):
                 return message
+        raise AssertionError("what was waited for has not come")
 
     def ask(self, **message):
         """The answer, or the error."""

@@ -106,6 +106,7 @@ async function pick(column, row) {
   const answer = await ask({type: "pick", column, row});
   if (answer) {
     $("picked").replaceChildren(pickedTable(answer.picked));
+    $("picked-section").scrollIntoView({block: "nearest"});
   }
 }
 
@@ -117,7 +118,7 @@ function showState() {
   $("redo").disabled = state.redo === null;
   $("undo").title = state.undo ? `Undo: ${state.undo}` : "";
   $("redo").title = state.redo ? `Redo: ${state.redo}` : "";
-  $("parallel").setAttribute("aria-pressed", String(state.scene.camera?.projection === "orthographic" || "height" in (state.scene.camera ?? {})));
+  $("parallel").setAttribute("aria-pressed", String(state.scene.camera?.type === "orthographic"));
   showItems();
   // What somebody holds in the hand must not be taken away.
   const inHand = document.activeElement instanceof HTMLInputElement && document.activeElement.type === "range" &&
@@ -160,11 +161,9 @@ function showItems() {
     shown.onchange = () => ask({type: "show", kind: item.kind, index: item.index, shown: /** @type {HTMLInputElement} */ (shown).checked});
     const label = element("button", {className: "label", "aria-pressed": String(key(item) === selected)}, [item.label]);
     label.onclick = () => { selected = key(item); showState(); };
-    const copy = element("button", {"aria-label": `Copy ${item.label}`, title: "Copy"}, ["⧉"]);
-    copy.onclick = () => ask({type: "copy", kind: item.kind, index: item.index}).then(selectAnswer);
     const remove = element("button", {"aria-label": `Remove ${item.label}`, title: "Remove"}, ["✕"]);
     remove.onclick = () => ask({type: "remove", kind: item.kind, index: item.index});
-    return element("li", {className: key(item) === selected ? "selected" : ""}, [shown, label, copy, remove]);
+    return element("li", {className: key(item) === selected ? "selected" : ""}, [shown, label, remove]);
   });
   $("items").replaceChildren(...list);
   const before = $("new-item").value;
@@ -258,13 +257,19 @@ async function savePicture() {
 $("undo").onclick = () => ask({type: "undo"});
 $("redo").onclick = () => ask({type: "redo"});
 $("add").onclick = add;
+$("copy").onclick = () => {
+  const item = state.items.find((/** @type {Json} */ one) => key(one) === selected);
+  if (item) {
+    ask({type: "copy", kind: item.kind, index: item.index}).then(selectAnswer);
+  }
+};
 $("save-view").onclick = saveView;
 $("save-picture").onclick = savePicture;
 $("pick-middle").onclick = () => pick(picture.size[0] / 2, picture.size[1] / 2);
 $("parallel").onclick = () => ask({type: "projection", orthographic: $("parallel").getAttribute("aria-pressed") !== "true"});
 $("panel-toggle").onclick = () => {
-  $("panel").hidden = !$("panel").hidden;
-  $("panel-toggle").setAttribute("aria-pressed", String(!$("panel").hidden));
+  const isFull = document.body.classList.toggle("full");
+  $("panel-toggle").setAttribute("aria-pressed", String(!isFull));
 };
 $("undecided").onchange = () => ($("undecided").checked ? showUndecided() : picture.hideMask());
 $("time").oninput = () => connection.tell({type: "set", pointer: "/volume/time_step", value: Number($("time").value), name: "time step"});
