@@ -40,8 +40,10 @@ void print_table(const ConvertReport& report, const std::string& output) {
         std::printf("%s\n", counted(count, shape + " element").c_str());
     }
     for (const FieldReport& field : report.fields) {
-        std::printf("field %s: %s, residual %.3g of its range, largest jump %.3g\n", field.name.c_str(),
-                    field.exact ? "exact but for round-off" : "NOT exact", field.residual, field.max_jump);
+        const bool has_gaps = field.n_not_finite > 0;
+        const std::string gaps = has_gaps ? ", not a number in " + counted(field.n_not_finite, "element") : std::string();
+        std::printf("field %s: %s, residual %.3g of its range, largest jump %.3g%s\n", field.name.c_str(),
+                    field.exact ? "exact but for round-off" : "NOT exact", field.residual, field.max_jump, gaps.c_str());
     }
     if (report.n_unknown_faces > 0) {
         std::printf("%s whose neighbour is unknown\n", counted(report.n_unknown_faces, "face").c_str());

@@ -1,6 +1,7 @@
 #include <core/convert/kept_volumes.hpp>
 
 #include <core/base/cache.hpp>
+#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/host.hpp>
 #include <core/base/log.hpp>
@@ -15,8 +16,10 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace elvis {
 
@@ -202,21 +205,23 @@ std::string exactness(const ConvertReport& report) {
     if (is_exact(report)) {
         return "exact";
     }
-    std::string text = "NOT exact:";
+    std::vector<std::string> losses;
     const FieldReport* worst = nullptr;
     for (const FieldReport& field : report.fields) {
-        if (!field.exact && (worst == nullptr || field.residual > worst->residual)) {
+        if (field.n_not_finite > 0) {
+            losses.push_back(fmt::format("field {} is not a number in {}", field.name, counted(field.n_not_finite, "element")));
+        } else if (!field.exact && (worst == nullptr || field.residual > worst->residual)) {
             worst = &field;
         }
     }
     if (worst != nullptr) {
-        text += fmt::format(" the largest residual is {:.3g} of the range of field {}", worst->residual, worst->name);
+        losses.insert(losses.begin(),
+                      fmt::format("the largest residual is {:.3g} of the range of field {}", worst->residual, worst->name));
     }
     if (!report.geometry_exact) {
-        text += fmt::format("{} the geometry is off by {:.3g} of the extent", worst != nullptr ? "," : "",
-                            report.geometry_residual);
+        losses.push_back(fmt::format("the geometry is off by {:.3g} of the extent", report.geometry_residual));
     }
-    return text;
+    return fmt::format("NOT exact: {}", fmt::join(losses, ", "));
 }
 
 } // namespace elvis

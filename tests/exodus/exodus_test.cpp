@@ -156,10 +156,38 @@ TEST_CASE("conversion is exact, and sides become groups", "[exodus]") {
     }
 }
 
+TEST_CASE("one part stands for all that a parallel program has written", "[exodus]") {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& named :
+         {std::vector{data("cubes.e.2.1")}, std::vector{data("cubes.e.2.0"), data("cubes.e.2.1")}}) {
+        const auto source = open_exodus(named);
+        CHECK(source.info().n_elements == 2);
+        CHECK(source.boundary_groups() == std::vector<std::string>{"inlet", "outlet"});
+        const ConvertReport report = convert(source, folder.path("volume.h5"), {}, {});
+        CHECK(report.geometry_exact);
+        // They are joined where they meet: five outer faces each.
+        CHECK(report.n_boundary_faces == 10);
+        CHECK(report.n_unknown_faces == 0);
+        REQUIRE(report.fields.size() == 2);
+        CHECK((report.fields[0].exact && report.fields[0].max_jump < 1e-14));
+        CHECK((report.fields[1].name == "rank" && report.fields[1].lower == 0 && report.fields[1].upper == 1));
+        const auto elements = all_elements(source);
+        CHECK(std::ranges::count(elements[0].face_groups, 0) == 1);
+        CHECK(std::ranges::count(elements[1].face_groups, 1) == 1);
+        CHECK(std::ranges::count(elements[1].face_groups, 0) == 0);
+    }
+    const std::string part = test::read_file(data("cubes.e.2.0"));
+    CHECK_THAT(failure({folder.write("alone.e.2.0", part)}), Contains("alone.e.2.1") && Contains("part 1 of 2"));
+    std::string other = test::read_file(data("cubes.e.2.1"));
+    other.replace(other.find("rank"), 4, "site");
+    folder.write("mixed.e.2.0", part);
+    CHECK_THAT(failure({folder.write("mixed.e.2.1", other)}), Contains("mixed.e.2.1") && Contains("variables"));
+}
+
 TEST_CASE("what cannot be read is refused with a reason", "[exodus]") {
     const TemporaryFolder folder;
     const std::string whole = test::read_file(data("solid.e"));
-    CHECK_THAT(failure({data("solid.e"), data("flat.e")}), Contains("one file"));
+    CHECK_THAT(failure({data("solid.e"), data("flat.e")}), Contains("no part of the data set"));
     const auto with = [&](std::string text, const std::string& what, const std::string& by) {
         const std::size_t at = text.find(what);
         REQUIRE(at != std::string::npos);

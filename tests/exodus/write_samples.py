@@ -114,9 +114,46 @@ def write(path, kind, blocks, dimension, one_array):
             file.createVariable(f"side_ss{number}", "i4", (f"num_side_ss{number}",))[:] = side
 
 
+def write_part(path, part):
+    """One of two cubes beside each other, 0 <= x <= 2, as a parallel program writes its own nodes and elements. `u` is x + 2 y - z + t."""
+    points = (np.array(HEX, float) + 1) / 2 + [part, 0, 0]
+    with netCDF4.Dataset(path, "w", format="NETCDF3_64BIT_OFFSET") as file:
+        file.createDimension("time_step", None)
+        for name, size in [("len_name", 33), ("num_dim", 3), ("num_nodes", 8), ("num_elem", 1), ("num_el_blk", 2), ("num_side_sets", 2),
+                           ("num_nod_var", 1), ("num_elem_var", 1), ("num_el_in_blk2", 1), ("num_nod_per_el2", 8), (f"num_side_ss{part + 1}", 1)]:
+            file.createDimension(name, size)
+
+        def texts(name, dims, rows):
+            variable = file.createVariable(name, "S1", dims)
+            for row, text in enumerate(rows):
+                letters = np.zeros(33, "S1")
+                letters[:len(text)] = list(text)
+                variable[row] = letters
+
+        for axis in range(3):
+            file.createVariable("coord" + "xyz"[axis], "f8", ("num_nodes",))[:] = points[:, axis]
+        file.createVariable("time_whole", "f8", ("time_step",))[:] = [0.0, 1.0]
+        connectivity = file.createVariable("connect2", "i4", ("num_el_in_blk2", "num_nod_per_el2"))
+        connectivity.elem_type = "HEX8"
+        connectivity[0] = np.arange(8) + 1
+        texts("name_nod_var", ("num_nod_var", "len_name"), ["u"])
+        texts("name_elem_var", ("num_elem_var", "len_name"), ["rank"])
+        for step in range(2):
+            for name, dims, values in [("vals_nod_var1", ("time_step", "num_nodes"), points @ [1, 2, -1] + step),
+                                       ("vals_elem_var1eb2", ("time_step", "num_el_in_blk2"), part)]:
+                target = file.variables.get(name) or file.createVariable(name, "f8", dims)
+                target[step] = values
+        # Each part has the outer side along x of one of the sets: side 4 is x = 0, side 2 is x = 2.
+        texts("ss_names", ("num_side_sets", "len_name"), ["inlet", "outlet"])
+        file.createVariable(f"elem_ss{part + 1}", "i4", (f"num_side_ss{part + 1}",))[:] = 1
+        file.createVariable(f"side_ss{part + 1}", "i4", (f"num_side_ss{part + 1}",))[:] = 4 if part == 0 else 2
+
+
 folder = Path(sys.argv[1])
 write(folder / "solid.e", "NETCDF3_CLASSIC", SOLID, 3, False)
 write(folder / "solid_64bit.e", "NETCDF3_64BIT_OFFSET", SOLID, 3, True)
 write(folder / "solid_data64.e", "NETCDF3_64BIT_DATA", SOLID, 3, False)
 write(folder / "solid_netcdf4.exo", "NETCDF4", SOLID, 3, False)
 write(folder / "flat.e", "NETCDF3_CLASSIC", FLAT, 2, False)
+for part in range(2):
+    write_part(folder / f"cubes.e.2.{part}", part)
