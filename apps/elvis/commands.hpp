@@ -27,6 +27,7 @@ void add_plugins(CLI::App& app);
 void add_probe(CLI::App& app);
 void add_render(CLI::App& app);
 void add_sample(CLI::App& app);
+void add_serve(CLI::App& app);
 void add_version(CLI::App& app);
 void add_view(CLI::App& app);
 
