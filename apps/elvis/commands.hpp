@@ -16,6 +16,7 @@ void add_completion(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_export(CLI::App& app);
+void add_extract(CLI::App& app);
 void add_extrema(CLI::App& app);
 void add_help(CLI::App& app);
 void add_info(CLI::App& app);
