@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
     elvis::commands::add_probe(app);
     elvis::commands::add_render(app);
     elvis::commands::add_sample(app);
+    elvis::commands::add_serve(app);
     elvis::commands::add_version(app);
     elvis::commands::add_view(app);
 
