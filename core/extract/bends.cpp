@@ -135,7 +135,7 @@ Bend sampled_bend(const SurfaceSampler& sampler, std::uint64_t element, elvis_sh
         level.push_back(point.level.slope);
         contour.push_back(point.contour.slope);
     }
-    return {bend_on(lattice, level), bend_on(lattice, contour), false};
+    return {bend_on(lattice, level), bend_on(lattice, contour), 0, false};
 }
 
 double local_bend(std::span<const Vector3> corners, std::span<const Vector3> slopes) {

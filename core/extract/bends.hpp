@@ -18,6 +18,8 @@ namespace elvis {
 /** H >= sum over i, j of |d^2 f / dxi_i dxi_j| in an element. */
 struct Bend {
     double level = 0, contour = 0;
+    /** Levels that are no larger are zero but for rounding. */
+    double level_rounding = 0;
     /** That of the level is proven. Else it is from samples. */
     bool is_certified = false;
 };

@@ -12,6 +12,8 @@ namespace {
 
 /** Looking into more parts of an element than this, bounds of the whole are too coarse: parts are judged by what they show. */
 constexpr std::size_t most_bounded_parts = 300000;
+/** After more, what is left in the element stays undecided. */
+constexpr std::size_t most_parts = 1000000;
 /** Of the tolerance: what linear models may say, so that what is measured afterwards is within it. */
 constexpr double model_share = 0.8;
 
@@ -188,10 +190,12 @@ bool CellJudge::are_faces_clear(const ElementCells& cells, Corners corners, doub
     return true;
 }
 
-bool CellJudge::is_clear(const ElementCells& cells, Corners corners, double bend) const {
+bool CellJudge::is_clear(const ElementCells& cells, Corners corners, double bend, double level_rounding) const {
     const CornerData data(cells, corners);
     const SimplexFunction function = data.function(bend);
-    return function.is_nowhere_zero() || (function.is_monotone() && are_faces_clear(cells, corners, bend));
+    // Where a field has the isovalue in a whole region, nothing is on the other side.
+    return function.is_nowhere_zero() || function.largest() <= level_rounding ||
+           (function.is_monotone() && are_faces_clear(cells, corners, bend));
 }
 
 /** A point of a cell is on another side than the cell's triangles say, and not because these are off by the tolerance. */
@@ -242,11 +246,11 @@ void CellJudge::look_for_hidden_parts(ElementCells& cells, const std::vector<std
                 const CornerData data(cells, part.corners);
                 most = std::min(most, local_bend(data.xi, data.slopes));
             }
-            if (cell.state == Cell::State::wanted || is_clear(cells, part.corners, most)) {
+            if (cell.state == Cell::State::wanted || is_clear(cells, part.corners, most, bend.level_rounding)) {
                 continue;
             }
             const LongestSide side(cells, part.corners);
-            if (!(side.length > m_tolerance)) {
+            if (!(side.length > m_tolerance) || n_parts > most_parts) {
                 cell.is_undecided = true;
                 continue;
             }

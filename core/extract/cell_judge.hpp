@@ -31,7 +31,7 @@ public:
 
 private:
     using Corners = std::span<const std::uint32_t>;
-    bool is_clear(const ElementCells& cells, Corners corners, double bend) const;
+    bool is_clear(const ElementCells& cells, Corners corners, double bend, double level_rounding) const;
     bool are_faces_clear(const ElementCells& cells, Corners corners, double bend) const;
     void look_for_hidden_parts(ElementCells& cells, const std::vector<std::size_t>& chosen, const Bend& bend,
                                bool& has_sampled) const;

@@ -16,6 +16,8 @@ namespace {
 constexpr double weld_share = 1e-3, weld_edge_share = 1e-5;
 /** Of the largest level: what a continuous field's values may differ by from element to element. */
 constexpr double continuous_share = 1e-9;
+/** Of that: what a function that is zero in an element may seem to be. */
+constexpr double zero_share = 1e-4;
 
 double shortest_edge(const ElementCells& cells) {
     double shortest = HUGE_VAL;
@@ -47,6 +49,7 @@ CellMesh::CellMesh(const SurfaceSampler& sampler, const CellJudge& judge, std::v
         }
     }
     for (std::size_t index = 0; index < m_cells.size(); ++index) {
+        m_elements[index].bend.level_rounding = zero_share * m_level_rounding;
         for (CellPoint& point : m_cells[index].points()) {
             weld(point, m_distances[index]);
         }
