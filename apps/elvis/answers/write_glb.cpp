@@ -86,8 +86,10 @@ void add_values(const extracted& mesh, const std::vector<MeshColumn>& columns, G
                     values.push_back(static_cast<float>(mesh.values[vertex * mesh.info.n_values + column.first + first + k]));
                 }
             }
-            const std::string name =
-                attribute_name(column.name) + (n < column.n_components ? "_" + std::to_string(first) : std::string());
+            std::string name = attribute_name(column.name);
+            if (n < column.n_components) {
+                name.append("_").append(std::to_string(first));
+            }
             attributes[name] = buffer.add(values, type_float, types[n - 1], n, target_vertices, false);
         }
     }
