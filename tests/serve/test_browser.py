@@ -69,7 +69,9 @@ class BrowserTest(unittest.TestCase):
         page.wait(SETTLED)
         self.shot("plane.png")
 
-        page.drag((350, 350), (0, 0), steps=1)
+        middle = page.run("""const box = document.getElementById('view').getBoundingClientRect();
+                             return [Math.round(box.left + box.width / 2), Math.round(box.top + box.height / 2)]""")
+        page.drag(middle, (0, 0), steps=1)
         page.wait("document.querySelector('#picked table')")
         self.assertIn("xi", page.run("return document.getElementById('picked').innerText"))
         self.shot("picked.png")
