@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-# Debian 12 packages. Tools, then libraries, then what the Python package and what the tests use.
+# Debian 12 packages. Tools, then libraries, then what the Python package, elvis-mpi and the tests use.
 packages=(
     cmake ninja-build g++ pkg-config
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
@@ -12,6 +12,7 @@ packages=(
     libpugixml-dev zlib1g-dev liblz4-dev libturbojpeg0-dev
 )
 python_packages=(python3-dev pybind11-dev python3-numpy)
+mpi_packages=(libopenmpi-dev openmpi-bin)
 test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py python3-matplotlib gmsh libcgns-dev xvfb xdotool imagemagick abigail-tools
     chromium chromium-driver node-typescript nginx-light)
 
@@ -85,16 +86,16 @@ demo)
     demo
     ;;
 test)
-    install_missing "${packages[@]}" "${python_packages[@]}" "${test_packages[@]}"
+    install_missing "${packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${test_packages[@]}"
     build -DELVIS_BUILD_TESTS=ON
     ctest --preset release --parallel "$(nproc)"
     ;;
 build)
-    install_missing "${packages[@]}" "${python_packages[@]}" "${test_packages[@]}"
+    install_missing "${packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${test_packages[@]}"
     build -DELVIS_BUILD_TESTS=ON
     ;;
 install)
-    install_missing "${packages[@]}" "${python_packages[@]}"
+    install_missing "${packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}"
     prefix=${2:-$([ "$(id -u)" -eq 0 ] && echo /usr/local || echo "$HOME/.local")}
     install_below "$(realpath -m "$prefix")"
     ;;

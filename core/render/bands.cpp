@@ -68,62 +68,41 @@ void put(const std::vector<T>& band, const Rows& rows, const FrameRequest& whole
 }
 
 /** What is not of the volume but of pixels, or of work. */
-constexpr std::uint64_t FrameCounts::*counts[] = {&FrameCounts::hit_pixels,
-                                                  &FrameCounts::field_evaluations,
-                                                  &FrameCounts::mapping_evaluations,
-                                                  &FrameCounts::newton_failures,
-                                                  &FrameCounts::newton_iterations,
-                                                  &FrameCounts::undecided_pixels,
-                                                  &FrameCounts::overlap_pixels,
-                                                  &FrameCounts::nan_pixels,
-                                                  &FrameCounts::work_limit_pixels,
-                                                  &FrameCounts::careful_pixels,
-                                                  &FrameCounts::estimated_pixels,
-                                                  &FrameCounts::contour_pixels,
-                                                  &FrameCounts::undecided_contour_pixels,
-                                                  &FrameCounts::mesh_line_pixels,
-                                                  &FrameCounts::undecided_mesh_line_pixels,
-                                                  &FrameCounts::isosurface_pixels,
-                                                  &FrameCounts::undecided_isosurface_pixels,
-                                                  &FrameCounts::excluded_intervals,
-                                                  &FrameCounts::undecided_intervals,
-                                                  &FrameCounts::isosurface_crossings,
-                                                  &FrameCounts::projected_pixels,
-                                                  &FrameCounts::certified_segments,
-                                                  &FrameCounts::fits,
-                                                  &FrameCounts::fit_degrees,
-                                                  &FrameCounts::verified_fits,
-                                                  &FrameCounts::undecided_fits,
-                                                  &FrameCounts::volume_pixels,
-                                                  &FrameCounts::inexact_volume_pixels,
-                                                  &FrameCounts::volume_segments,
-                                                  &FrameCounts::empty_segments,
-                                                  &FrameCounts::volume_steps,
-                                                  &FrameCounts::volume_breakpoints,
-                                                  &FrameCounts::refined_pixels,
-                                                  &FrameCounts::hidden_pixels,
-                                                  &FrameCounts::spared_pixels};
-
-/** All but its pixels. */
-void add_part(const Frame& part, Frame& whole) {
-    for (std::uint64_t FrameCounts::*count : counts) {
-        whole.counts.*count += part.counts.*count;
-    }
-    whole.counts.overlapping_elements = part.counts.overlapping_elements;
-    whole.counts.half_drawn_elements = part.counts.half_drawn_elements;
-    whole.special_values.resize(part.special_values.size());
-    for (std::size_t i = 0; i < part.special_values.size(); ++i) {
-        const SpecialValues& from = part.special_values[i];
-        SpecialValues& to = whole.special_values[i];
-        to = {to.below || from.below, to.above || from.above, to.nan || from.nan, to.is_shown || from.is_shown};
-    }
-    whole.is_met.resize(part.is_met.size());
-    for (std::size_t i = 0; i < part.is_met.size(); ++i) {
-        whole.is_met[i] = whole.is_met[i] || part.is_met[i];
-    }
-    whole.submissions += part.submissions;
-    whole.host_waits += part.host_waits;
-}
+constexpr std::uint64_t FrameCounts::*added_counts[] = {&FrameCounts::hit_pixels,
+                                                        &FrameCounts::field_evaluations,
+                                                        &FrameCounts::mapping_evaluations,
+                                                        &FrameCounts::newton_failures,
+                                                        &FrameCounts::newton_iterations,
+                                                        &FrameCounts::undecided_pixels,
+                                                        &FrameCounts::overlap_pixels,
+                                                        &FrameCounts::nan_pixels,
+                                                        &FrameCounts::work_limit_pixels,
+                                                        &FrameCounts::careful_pixels,
+                                                        &FrameCounts::estimated_pixels,
+                                                        &FrameCounts::contour_pixels,
+                                                        &FrameCounts::undecided_contour_pixels,
+                                                        &FrameCounts::mesh_line_pixels,
+                                                        &FrameCounts::undecided_mesh_line_pixels,
+                                                        &FrameCounts::isosurface_pixels,
+                                                        &FrameCounts::undecided_isosurface_pixels,
+                                                        &FrameCounts::excluded_intervals,
+                                                        &FrameCounts::undecided_intervals,
+                                                        &FrameCounts::isosurface_crossings,
+                                                        &FrameCounts::projected_pixels,
+                                                        &FrameCounts::certified_segments,
+                                                        &FrameCounts::fits,
+                                                        &FrameCounts::fit_degrees,
+                                                        &FrameCounts::verified_fits,
+                                                        &FrameCounts::undecided_fits,
+                                                        &FrameCounts::volume_pixels,
+                                                        &FrameCounts::inexact_volume_pixels,
+                                                        &FrameCounts::volume_segments,
+                                                        &FrameCounts::empty_segments,
+                                                        &FrameCounts::volume_steps,
+                                                        &FrameCounts::volume_breakpoints,
+                                                        &FrameCounts::refined_pixels,
+                                                        &FrameCounts::hidden_pixels,
+                                                        &FrameCounts::spared_pixels};
 
 /** What renderers share while they draw. */
 struct Work {
@@ -174,6 +153,26 @@ std::uint32_t whole_units(std::uint64_t n_rows) {
 }
 
 } // namespace
+
+void add_part(const Frame& part, Frame& whole) {
+    for (std::uint64_t FrameCounts::*count : added_counts) {
+        whole.counts.*count += part.counts.*count;
+    }
+    whole.counts.overlapping_elements = part.counts.overlapping_elements;
+    whole.counts.half_drawn_elements = part.counts.half_drawn_elements;
+    whole.special_values.resize(part.special_values.size());
+    for (std::size_t i = 0; i < part.special_values.size(); ++i) {
+        const SpecialValues& from = part.special_values[i];
+        SpecialValues& to = whole.special_values[i];
+        to = {to.below || from.below, to.above || from.above, to.nan || from.nan, to.is_shown || from.is_shown};
+    }
+    whole.is_met.resize(part.is_met.size());
+    for (std::size_t i = 0; i < part.is_met.size(); ++i) {
+        whole.is_met[i] = whole.is_met[i] || part.is_met[i];
+    }
+    whole.submissions += part.submissions;
+    whole.host_waits += part.host_waits;
+}
 
 Frame render_bands(std::span<Renderer* const> renderers, const FrameRequest& request, std::uint32_t n_rows,
                    const TaskControl* control, const std::function<void(const Frame& band, const Rows& rows)>& take) {

@@ -27,6 +27,9 @@ struct Rows {
 Frame render_bands(std::span<Renderer* const> renderers, const FrameRequest& request, std::uint32_t n_rows,
                    const TaskControl* control, const std::function<void(const Frame& band, const Rows& rows)>& take);
 
+/** Adds all of a frame but its pixels and times: counts, what is met and shown. */
+void add_part(const Frame& part, Frame& whole);
+
 /** Rows a band: as many as the devices can bind buffers for, and few enough that each renderer has a band. */
 std::uint32_t rows_a_band(std::span<Renderer* const> renderers, const FrameRequest& request);
 

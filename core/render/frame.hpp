@@ -7,10 +7,12 @@
 #include <core/base/vector3.hpp>
 #include <core/render/picture/lighting.hpp>
 #include <core/render/surface.hpp>
+#include <core/render/volume/light_run.hpp>
 #include <core/render/volume_rendering.hpp>
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -77,6 +79,11 @@ struct FrameRequest {
     std::vector<Surface> surfaces;
     /** Light of the volume itself. */
     std::optional<VolumeRendering> volume;
+    /**
+     * Of a part of a volume, and without surfaces: depths in front of which light of the volume is wanted, one a pixel,
+     * infinite where nothing hides it. Frame::runs are then given in place of colours.
+     */
+    std::shared_ptr<const std::vector<double>> hidden_from;
     /** Surfaces show their colours as they are if absent. */
     std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
@@ -182,6 +189,10 @@ struct Frame {
     std::vector<std::int64_t> element; ///< element number as people know it; -1 where nothing was hit
     std::vector<double> normal;        ///< 3 a pixel, unit, towards the viewer; NaN where nothing was hit
     std::vector<std::uint32_t> flags;
+    /** Light of the volume, if FrameRequest::hidden_from is given: by pixel, and along each ray. */
+    std::vector<LightRun> runs;
+    /** What each channel of all light of a ray is off besides. */
+    double color_error = 0;
     FrameCounts counts;
     /** Of each surface that was asked for, and of such as the renderer adds. */
     std::vector<SpecialValues> special_values;

@@ -113,14 +113,25 @@ MergePass::Wanted LayeredPicture::merge(const SurfaceDrawing& drawing, std::size
                                            drawing.surface().is_see_through());
 }
 
-void LayeredPicture::draw(VolumePass& volume, const DeviceVolume& data) {
+ViewStart LayeredPicture::start_of_view() const {
     const Camera& camera = m_request->camera;
     ViewStart start{camera.eye, std::nullopt};
     if (camera.orthographic) {
         start.direction = unit(minus(camera.look_at, camera.eye));
     }
+    return start;
+}
+
+void LayeredPicture::draw(VolumePass& volume, const DeviceVolume& data) {
     m_merge_pass.fill_empty();
-    volume.draw(rays_of(*m_request, nullptr, data), start, m_merge_pass, m_request->sharing.rows, m_frame->counts);
+    volume.draw(rays_of(*m_request, nullptr, data), start_of_view(), m_merge_pass, m_request->sharing.rows, m_frame->counts);
+}
+
+void LayeredPicture::give_runs(VolumePass& volume, const DeviceVolume& data) {
+    m_merge_pass.hide_behind(*m_request->hidden_from);
+    m_frame->runs = volume.runs(rays_of(*m_request, nullptr, data), start_of_view(), m_merge_pass, m_request->sharing.rows,
+                                m_frame->counts);
+    m_frame->color_error = volume.color_error();
 }
 
 void LayeredPicture::finish() {

@@ -30,6 +30,8 @@ public:
     void draw(SurfaceDrawing& drawing, std::size_t index, std::uint32_t common_flags);
     /** Light of the volume, with its field, over and between all surfaces. */
     void draw(VolumePass& volume, const DeviceVolume& data);
+    /** The same in place of colours: FrameRequest::hidden_from. */
+    void give_runs(VolumePass& volume, const DeviceVolume& data);
     /** All surfaces are drawn, and no volume. */
     void finish();
 
@@ -45,6 +47,7 @@ private:
     std::uint32_t draw_layer(SurfaceDrawing& drawing, const Setting& setting, const MergePass::Wanted& wanted,
                              const Buffer* beyond);
     MergePass::Wanted merge(const SurfaceDrawing& drawing, std::size_t index);
+    ViewStart start_of_view() const;
     bool is_lit(const Surface& surface) const { return m_request->lighting.has_value() && surface.is_lit; }
 
     const Device& m_device;

@@ -81,8 +81,9 @@ struct Renderer::Impl {
     RendererTimes times;
     std::uint64_t n_overlapping = 0;
 
-    Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task)
-        : device(on), volume(of), data(on, of, with, task), ranges(on, of, data), fields(of, data, ranges),
+    Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task,
+         const std::optional<std::array<double, 6>>& bounds_of_whole)
+        : device(on), volume(of), data(on, of, with, task, bounds_of_whole), ranges(on, of, data), fields(of, data, ranges),
           passes(on, of, data, ranges, task), picture(on, with) {
         find_overlaps(task);
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
@@ -151,13 +152,18 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, Frame& frame) {
     const DeviceTimer timer(device, false);
     times.compile_milliseconds += milliseconds_since(start);
 
-    picture.draw(pass, data);
+    if (request.hidden_from) {
+        picture.give_runs(pass, data);
+    } else {
+        picture.draw(pass, data);
+    }
     frame.render_milliseconds += timer.wall_milliseconds();
     frame.device_milliseconds += timer.milliseconds();
 }
 
-Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control) {
-    m_impl = std::make_unique<Impl>(device, volume, precision, control);
+Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control,
+                   const std::optional<std::array<double, 6>>& bounds_of_whole) {
+    m_impl = std::make_unique<Impl>(device, volume, precision, control, bounds_of_whole);
 }
 
 Renderer::~Renderer() = default;

@@ -36,7 +36,9 @@ struct RendererMemory {
  */
 class Renderer {
 public:
-    Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control = nullptr);
+    /** `bounds_of_whole`: where the volume is a part of a larger one, which pictures are to be like those of. */
+    Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control = nullptr,
+             const std::optional<std::array<double, 6>>& bounds_of_whole = {});
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

@@ -87,7 +87,8 @@ FieldRange values_on_boundary(const RuntimeVolume& volume, const FieldChoice& fi
     return {samples[n_left_out], samples[samples.size() - 1 - n_left_out]};
 }
 
-bool is_flat_on_boundary(const RuntimeVolume& volume, VolumeRanges& ranges, const FieldChoice& field, std::uint32_t time_step) {
+bool is_flat_on_boundary(const RuntimeVolume& volume, PictureRanges& ranges, const FieldChoice& field,
+                         std::uint32_t time_step) {
     if (field.expression || !volume.has_evaluation() || volume.is_cut()) {
         return false;
     }
@@ -98,7 +99,7 @@ bool is_flat_on_boundary(const RuntimeVolume& volume, VolumeRanges& ranges, cons
 
 } // namespace
 
-std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, VolumeRanges& ranges,
+std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, PictureRanges& ranges,
                                            const FieldChoice& field, std::uint32_t time_step) {
     if (volume.dimension() == 2) {
         return {SceneSurface{FlatElements{}}};

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/render/field/volume_ranges.hpp>
+#include <core/render/field/picture_ranges.hpp>
 #include <core/scene/scene.hpp>
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace elvis {
  * most of it (0.7 of its samples), as with a boundary condition of one value, cut open: a plane through the middle, and the
  * half of the boundary behind it as seen from the scene's eye. Without a boundary, the plane alone.
  */
-std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, VolumeRanges& ranges,
+std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, PictureRanges& ranges,
                                            const FieldChoice& field, std::uint32_t time_step);
 
 } // namespace elvis

@@ -25,7 +25,7 @@ namespace {
 
 /** What the camera looks at from the front, if nothing else is said. */
 std::vector<CutPlane> planes_looked_at(const std::vector<SceneSurface>& surfaces, const RuntimeVolume& volume,
-                                       const VolumeRanges& ranges) {
+                                       const PictureRanges& ranges) {
     if (volume.dimension() == 2) {
         return plane_of_flat(ranges.bounds());
     }
@@ -173,7 +173,7 @@ std::array<double, 2> beyond_rounding(const FieldRange& all, double rounding, co
 }
 
 std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& field, const std::string& label, const Scene& scene,
-                               VolumeRanges& ranges, std::vector<std::string>& remarks) {
+                               PictureRanges& ranges, std::vector<std::string>& remarks) {
     if (map.range) {
         return *map.range;
     }
@@ -190,7 +190,7 @@ std::array<double, 2> range_of(const SceneColorMap& map, const FieldChoice& fiel
 }
 
 VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Scene& scene, const RuntimeVolume& volume,
-                                      VolumeRanges& ranges, std::vector<std::string>& remarks) {
+                                      PictureRanges& ranges, std::vector<std::string>& remarks) {
     if (volume.dimension() == 2) {
         throw Error(scene.volume, "is two-dimensional: it has nothing inside for 'volume_rendering' to show");
     }
@@ -214,7 +214,7 @@ VolumeRendering make_volume_rendering(const SceneVolumeRendering& own, const Sce
     return rendering;
 }
 
-Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges,
+Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges,
                      std::vector<std::string>& remarks) {
     Surface surface;
     surface.geometry = own.geometry;
@@ -266,7 +266,7 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
     return choice;
 }
 
-std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges) {
+std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges) {
     if (scene.surfaces.empty() && (volume.dimension() == 2 || !scene.volume_rendering)) {
         std::string label;
         return default_surfaces(scene.camera, volume, ranges, choose_field(scene, volume, scene.field, label), scene.time_step);
@@ -276,7 +276,7 @@ std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume
     return shown;
 }
 
-FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges) {
+FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges) {
     if (scene.time_step >= volume.times().size()) {
         throw Error(scene.volume, "has " + counted(volume.times().size(), "time step") + ", counted from 0; there is no step " +
                                       std::to_string(scene.time_step));

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
-#include <core/render/field/volume_ranges.hpp>
+#include <core/render/field/picture_ranges.hpp>
 #include <core/scene/scene.hpp>
 
 namespace elvis {
@@ -17,12 +17,12 @@ namespace elvis {
 FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::string>& text);
 
 /** The scene's surfaces that are drawn; what default_surfaces.hpp says if it shows nothing. */
-std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges);
+std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges);
 
 /**
  * The frame with everything decided. Without surfaces and volume rendering, the scene shows what default_surfaces.hpp says.
  * Throws Error where the scene does not suit the volume.
  */
-FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, VolumeRanges& ranges);
+FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges);
 
 } // namespace elvis

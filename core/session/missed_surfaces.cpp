@@ -54,7 +54,7 @@ void MissedSurfaces::add(const FrameRequest& request, const Frame& frame) {
     }
 }
 
-MissedSurfaces::Range MissedSurfaces::values_of(const FieldChoice& field, VolumeRanges& ranges) const {
+MissedSurfaces::Range MissedSurfaces::values_of(const FieldChoice& field, PictureRanges& ranges) const {
     Range all{ranges.extrema(field, m_time_steps.front()).range(), true};
     for (const std::uint32_t step : m_time_steps) {
         const FieldExtrema extrema = ranges.extrema(field, step);
@@ -64,7 +64,7 @@ MissedSurfaces::Range MissedSurfaces::values_of(const FieldChoice& field, Volume
     return all;
 }
 
-MissedSurfaces::Range MissedSurfaces::enclosure_of(const FieldChoice& field, VolumeRanges& ranges) const {
+MissedSurfaces::Range MissedSurfaces::enclosure_of(const FieldChoice& field, PictureRanges& ranges) const {
     Range all{ranges.range(field, m_time_steps.front()), true};
     for (const std::uint32_t step : m_time_steps) {
         elvis_certainty certainty{};
@@ -77,7 +77,7 @@ MissedSurfaces::Range MissedSurfaces::enclosure_of(const FieldChoice& field, Vol
 
 /** Of several values one may hide another: where any is met, only those that the field surely does not take are missed. */
 std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn,
-                                              bool is_met, VolumeRanges& ranges) const {
+                                              bool is_met, PictureRanges& ranges) const {
     const Isosurfaces& isosurfaces = *traits_of(drawn.geometry).isosurfaces;
     if (is_met && (isosurfaces.values.size() == 1 || isosurfaces.field.expression)) {
         return {};
@@ -100,7 +100,7 @@ std::string MissedSurfaces::isosurface_remark(const SceneSurface& surface, const
                                text_of(values.range.upper) + "]";
 }
 
-std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const FrameRequest& request, VolumeRanges& ranges) const {
+std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const FrameRequest& request, PictureRanges& ranges) const {
     std::vector<std::string> remarks;
     const std::vector<const SceneSurface*> shown = shown_surfaces(scene);
     for (std::size_t i = 0; i < m_is_met.size(); ++i) {

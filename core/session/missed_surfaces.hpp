@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/render/field/volume_ranges.hpp>
+#include <core/render/field/picture_ranges.hpp>
 #include <core/render/frame.hpp>
 #include <core/scene/scene.hpp>
 
@@ -22,7 +22,7 @@ public:
     void add(const FrameRequest& request, const Frame& frame);
 
     /** A sentence about each that all pictures so far miss. `scene` is theirs; `request` one of theirs. */
-    std::vector<std::string> remarks(const Scene& scene, const FrameRequest& request, VolumeRanges& ranges) const;
+    std::vector<std::string> remarks(const Scene& scene, const FrameRequest& request, PictureRanges& ranges) const;
 
 private:
     struct Range {
@@ -30,10 +30,10 @@ private:
         bool is_certified;
     };
     /** The field's values over all time steps, and what encloses them. */
-    Range values_of(const FieldChoice& field, VolumeRanges& ranges) const;
-    Range enclosure_of(const FieldChoice& field, VolumeRanges& ranges) const;
+    Range values_of(const FieldChoice& field, PictureRanges& ranges) const;
+    Range enclosure_of(const FieldChoice& field, PictureRanges& ranges) const;
     std::string isosurface_remark(const SceneSurface& surface, const std::string& field, const Surface& drawn, bool is_met,
-                                  VolumeRanges& ranges) const;
+                                  PictureRanges& ranges) const;
 
     /** By surface as the requests have them. */
     std::vector<bool> m_is_met;

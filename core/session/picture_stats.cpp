@@ -64,10 +64,16 @@ nlohmann::ordered_json kernels_json(std::vector<KernelBuild> builds) {
 } // namespace
 
 PictureStats::PictureStats(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer)
-    : m_device(device.summary().name), m_driver(device.summary().driver), m_precision(precision), m_times(renderer.times()),
-      m_memory(renderer.memory()), m_render_milliseconds(frame.render_milliseconds),
-      m_device_milliseconds(frame.device_milliseconds), m_submissions(frame.submissions), m_host_waits(frame.host_waits),
-      m_counts(frame.counts), m_kernels(device.kernel_builds()) {}
+    : PictureStats(device, precision, frame) {
+    m_times = renderer.times();
+    m_memory = renderer.memory();
+}
+
+PictureStats::PictureStats(const Device& device, Precision precision, const Frame& frame)
+    : m_device(device.summary().name), m_driver(device.summary().driver), m_precision(precision),
+      m_render_milliseconds(frame.render_milliseconds), m_device_milliseconds(frame.device_milliseconds),
+      m_submissions(frame.submissions), m_host_waits(frame.host_waits), m_counts(frame.counts),
+      m_kernels(device.kernel_builds()) {}
 
 std::string PictureStats::json() const {
     nlohmann::ordered_json root;

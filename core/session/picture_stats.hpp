@@ -18,6 +18,8 @@ class PictureStats {
 public:
     PictureStats() = default;
     PictureStats(const Device& device, Precision precision, const Frame& frame, const Renderer& renderer);
+    /** Without what a renderer knows: times of preparation, bytes on the device. */
+    PictureStats(const Device& device, Precision precision, const Frame& frame);
 
     /** Device, times in milliseconds, counts, memory, kernels. */
     std::string json() const;

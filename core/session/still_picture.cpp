@@ -41,6 +41,11 @@ StillPicture draw_request(const Scene& scene, FrameRequest request, const Runtim
         still.frame.render_milliseconds += fine.render_milliseconds;
         still.frame.device_milliseconds += fine.device_milliseconds;
     }
+    finish_still(scene, volume, still);
+    return still;
+}
+
+void finish_still(const Scene& scene, const RuntimeVolume& volume, StillPicture& still) {
     if (scene.annotation) {
         const AnnotationRequest annotation = make_annotation_request(*scene.annotation, still.request, still.frame, volume);
         for (const std::string& name : annotate(still.frame, annotation)) {
@@ -50,7 +55,6 @@ StillPicture draw_request(const Scene& scene, FrameRequest request, const Runtim
     for (FrameRemark& remark : remarks_on(still.frame.counts)) {
         still.remarks.push_back(std::move(remark));
     }
-    return still;
 }
 
 StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const StillOptions& options,

@@ -37,6 +37,9 @@ StillPicture draw_still(const Scene& scene, const RuntimeVolume& volume, Rendere
 StillPicture draw_request(const Scene& scene, FrameRequest request, const RuntimeVolume& volume, Renderer& renderer,
                           const StillOptions& options, const TaskControl* control);
 
+/** Writes what the scene wants on a picture that is drawn, and adds remarks on its frame. */
+void finish_still(const Scene& scene, const RuntimeVolume& volume, StillPicture& still);
+
 /** What people should know of a request: what its makers say, and the density that people did not choose. */
 std::vector<FrameRemark> remarks_on(const Scene& scene, const FrameRequest& request);
 

@@ -37,8 +37,15 @@ std::shared_ptr<const native::VolumeSource> native_source(const std::string& pat
     return std::make_shared<const native::Reader>(path);
 }
 
-RuntimeVolume open_warped(std::shared_ptr<const native::VolumeSource> source, const SceneWarp& warp, std::uint32_t time_step,
-                          const std::string& name, const TaskControl* control) {
+RuntimeVolume serve_native(std::shared_ptr<const native::VolumeSource> source, const std::string& name,
+                           const TaskControl* control) {
+    const auto serve = [&](const elvis_host* host) { return native::serve(host, name, std::move(source)); };
+    return {Plugin::of_native(name), name, serve, control};
+}
+
+std::shared_ptr<const native::VolumeSource> warped_source(std::shared_ptr<const native::VolumeSource> source,
+                                                          const SceneWarp& warp, std::uint32_t time_step,
+                                                          const std::string& name) {
     const native::Description& description = source->description();
     native::Warp own;
     own.field = field_named(description, warp.field, name);
@@ -49,11 +56,16 @@ RuntimeVolume open_warped(std::shared_ptr<const native::VolumeSource> source, co
     own.factor = warp.factor;
     own.phase = warp.phase * std::numbers::pi / 180;
     try {
-        auto warped = std::make_shared<const native::WarpedVolume>(std::move(source), own);
-        const auto serve = [&](const elvis_host* host) { return native::serve(host, name, std::move(warped)); };
-        return {Plugin::of_native(name), name, serve, control};
+        return std::make_shared<const native::WarpedVolume>(std::move(source), own);
     } catch (const std::invalid_argument& reason) {
         throw Error(name, std::string("cannot be displaced: ") + reason.what());
+    }
+}
+
+RuntimeVolume open_warped(std::shared_ptr<const native::VolumeSource> source, const SceneWarp& warp, std::uint32_t time_step,
+                          const std::string& name, const TaskControl* control) {
+    try {
+        return serve_native(warped_source(std::move(source), warp, time_step, name), name, control);
     } catch (const api::Error& failure) {
         throw Error(name, std::string("cannot be displaced: ") + failure.what());
     }

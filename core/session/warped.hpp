@@ -21,6 +21,15 @@ inline constexpr const char* native_plugin_id = "org.elvis.native";
 /** The numbers of a native volume's file. */
 std::shared_ptr<const native::VolumeSource> native_source(const std::string& path);
 
+/** A volume that serves these numbers; `name` stands for it in messages. `control`, if there is one, must outlive it. */
+RuntimeVolume serve_native(std::shared_ptr<const native::VolumeSource> source, const std::string& name,
+                           const TaskControl* control);
+
+/** Displaced by the fields of that time step. Throws Error for fields that are not there or that are no displacement. */
+std::shared_ptr<const native::VolumeSource> warped_source(std::shared_ptr<const native::VolumeSource> source,
+                                                          const SceneWarp& warp, std::uint32_t time_step,
+                                                          const std::string& name);
+
 /**
  * Displaced by the fields of that time step (elvis/native/warped_volume.hpp). `name` stands for the volume in messages.
  * `control`, if there is one, must outlive it. Throws Error for fields that are not there or that are no displacement.

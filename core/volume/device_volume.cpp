@@ -70,9 +70,10 @@ FieldSelection selection_of(const std::shared_ptr<const Expression>& expression,
     return selection;
 }
 
-DeviceVolume::DeviceVolume(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control)
+DeviceVolume::DeviceVolume(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control,
+                           const std::optional<std::array<double, 6>>& bounds_of_whole)
     : m_device(device), m_volume(volume), m_precision(precision), m_control(control), m_buffers(volume.n_buffers()) {
-    read_bounds();
+    read_bounds(bounds_of_whole);
 }
 
 bool DeviceVolume::has_capability(std::uint32_t element_class, std::uint32_t capability) const {
@@ -81,7 +82,7 @@ bool DeviceVolume::has_capability(std::uint32_t element_class, std::uint32_t cap
     return (m_classes[index].snippet.capabilities & capability) != 0;
 }
 
-void DeviceVolume::read_bounds() {
+void DeviceVolume::read_bounds(const std::optional<std::array<double, 6>>& bounds_of_whole) {
     const Clock::time_point start = Clock::now();
     const std::uint64_t n_elements = m_volume.n_elements();
     std::vector<double> boxes(6 * n_elements);
@@ -102,6 +103,7 @@ void DeviceVolume::read_bounds() {
             m_origins[3 * element + axis] = exact_in_float(0.5 * (lower + upper));
         }
     }
+    m_bounds = bounds_of_whole.value_or(m_bounds);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         m_centre[axis] = exact_in_float(0.5 * (m_bounds[axis] + m_bounds[axis + 3]));
     }

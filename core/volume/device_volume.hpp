@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace elvis {
@@ -44,8 +45,12 @@ FieldSelection selection_of(const std::shared_ptr<const Expression>& expression,
 
 class DeviceVolume {
 public:
-    /** Reads bounds and numbers, builds and uploads hierarchies and element origins. Device and volume must outlive it. */
-    DeviceVolume(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control);
+    /**
+     * Reads bounds and numbers, builds and uploads hierarchies and element origins. Device and volume must outlive it. Of a
+     * part of a volume, bounds_of_whole: bounds() and all that is relative to them are those of the whole.
+     */
+    DeviceVolume(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control,
+                 const std::optional<std::array<double, 6>>& bounds_of_whole = {});
 
     const std::array<double, 6>& bounds() const { return m_bounds; }
     /** What the hierarchies' bounds are relative to; exact in single precision. */
@@ -142,7 +147,7 @@ private:
         std::unique_ptr<RecordBuffer> curvature_records;
     };
 
-    void read_bounds();
+    void read_bounds(const std::optional<std::array<double, 6>>& bounds_of_whole);
     void build_class(std::uint32_t element_class, const std::vector<double>& boxes);
     bool provide(const FieldSlot& wanted, Slot& slot);
     bool provide(std::uint32_t index, const Slot& slot, PluginBuffer& buffer);

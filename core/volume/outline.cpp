@@ -187,8 +187,11 @@ std::size_t class_of(const RuntimeVolume& volume, std::uint64_t element) {
 } // namespace
 
 std::vector<Vector3> outline_points(const RuntimeVolume& volume, Background& background) {
+    return outline_points(volume, all_bounds(volume, background));
+}
+
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes) {
     Outline outline(volume);
-    const std::vector<double> boxes = all_bounds(volume, background);
     const std::vector<std::uint64_t> first = outline.first_candidates(boxes);
     if (!volume.has_evaluation()) {
         for (const std::uint64_t element : first) {

@@ -18,5 +18,7 @@ namespace elvis {
  * CPU they are corners of the elements' bounds, beyond which nothing is. The background fetches bounds.
  */
 std::vector<Vector3> outline_points(const RuntimeVolume& volume, Background& background);
+/** With bounds that are known: six numbers an element. */
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes);
 
 } // namespace elvis

@@ -6,6 +6,8 @@
 
 #include <apps/elvis/warp_option.hpp>
 
+#include <core/parts/team.hpp>
+
 #include <elvis/elvis.hpp>
 
 #include <array>
@@ -68,6 +70,10 @@ struct RenderArguments {
     int time_step = -1;
     int repeat = 0;
     int bits = 8;
+    /** 0: the volume is drawn as a whole. */
+    int parts = 0;
+    /** Who draws them; null: this process by itself. */
+    Team* team = nullptr;
     bool validation = false;
     bool schema = false;
 };

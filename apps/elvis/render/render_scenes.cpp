@@ -1,6 +1,7 @@
 #include "render_scenes.hpp"
 #include "output_endings.hpp"
 #include "render_animation.hpp"
+#include "render_parts.hpp"
 #include "render_session.hpp"
 #include "say_remarks.hpp"
 #include <apps/elvis/library_context.hpp>
@@ -98,6 +99,7 @@ Wanted read_wanted(const context& library, const RenderArguments& all, const std
     if (is_animation) {
         check_animation(wanted.arguments);
     }
+    check_parts(wanted.arguments, is_animation);
     check_names(wanted);
     if (wanted.shown.volume().empty()) {
         throw Error(input, "'volume' is missing");
@@ -235,7 +237,11 @@ void render_scenes(const RenderArguments& arguments) {
         if (all.size() > 1) {
             spdlog::info("scene: {}", wanted.arguments.input);
         }
-        render_one(wanted, session, {}, start);
+        if (arguments.parts > 0) {
+            render_parts(wanted.arguments, wanted.shown);
+        } else {
+            render_one(wanted, session, {}, start);
+        }
         start = Clock::now();
     }
     if (arguments.validation) {

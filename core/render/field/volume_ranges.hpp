@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/base/vector3.hpp>
-#include <core/render/surface.hpp>
+#include <core/render/field/picture_ranges.hpp>
 #include <core/volume/device_volume.hpp>
 
 #include <array>
@@ -18,8 +18,11 @@
 namespace elvis {
 
 /** Found when first asked for, and kept. What only the device can tell is sampled there: `data` then has another selection. */
-class VolumeRanges {
+class VolumeRanges : public PictureRanges {
 public:
+    /** Of each component, and how sure that is. */
+    using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
+
     /** All must outlive it. */
     VolumeRanges(const Device& device, const RuntimeVolume& volume, DeviceVolume& data)
         : m_device(device), m_volume(volume), m_data(data) {}
@@ -28,18 +31,18 @@ public:
     void forget_fields(std::optional<std::uint32_t> only = {});
 
     /** Bounds of the whole volume: min x y z, max x y z. */
-    const std::array<double, 6>& bounds() const { return m_data.bounds(); }
+    const std::array<double, 6>& bounds() const override { return m_data.bounds(); }
     /** How far the volume reaches in every direction (core/volume/outline.hpp). */
-    const std::vector<Vector3>& outline();
+    const std::vector<Vector3>& outline() override;
 
     /**
      * Extrema of a field (component, magnitude or expression) over the volume at a time step: what colours go by. Within a
      * thousandth of their distance where the plugin has bounds (core/volume/field/field_extrema.hpp), else of refined samples
      * (sampled_range.hpp); always the latter of expressions.
      */
-    const FieldExtrema& extrema(const FieldChoice& field, std::uint32_t time_step);
+    const FieldExtrema& extrema(const FieldChoice& field, std::uint32_t time_step) override;
     /** Encloses those: certified where the plugin says so, and several times wider. Expressions are sampled. */
-    FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr);
+    FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr) override;
 
     /**
      * Error of a value in single precision, lacking its offset on the device, about: relative to the largest for a field,
@@ -50,7 +53,14 @@ public:
      * About what rounding costs its values, to tell whether the range is more than that. 0 for components of fields, which lack
      * the middle of their range on the device, and where the range is certainly more.
      */
-    double value_rounding(const FieldChoice& field, std::uint32_t time_step);
+    double value_rounding(const FieldChoice& field, std::uint32_t time_step) override;
+
+    /** Certified where the plugin says so. */
+    const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
+    /** What of_components says from now on: of a part, those of the whole, which its values are drawn by. */
+    void set_components(std::uint32_t field, std::uint32_t time_step, Ranges ranges) {
+        m_of_components.insert_or_assign({field, time_step}, std::move(ranges));
+    }
 
     /**
      * What the device needs of a field. Fields lack the middle of their range, so that small variations of large values keep
@@ -59,10 +69,8 @@ public:
     FieldSelection selection(const FieldChoice& field, std::uint32_t time_step);
 
 private:
-    using Ranges = std::pair<std::vector<FieldRange>, elvis_certainty>;
     FieldExtrema found_extrema(const FieldChoice& field, std::uint32_t time_step);
     std::vector<double> middles(std::uint32_t field, std::uint32_t time_step);
-    const Ranges& of_components(std::uint32_t field, std::uint32_t time_step);
     std::vector<FieldRange> sampled(std::uint32_t field, std::uint32_t time_step);
 
     const Device& m_device;

@@ -1,6 +1,7 @@
 #include <core/render/device/pixel_kernel.hpp>
 #include <core/render/picture/merge_pass.hpp>
 
+#include <algorithm>
 #include <array>
 
 namespace elvis {
@@ -94,6 +95,16 @@ void MergePass::fill_empty() {
         dispatch_pixels(m_fill, {&m_picture->colors, &m_background_color}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
         m_picture->marks.fill(0);
     }
+}
+
+void MergePass::hide_behind(std::span<const double> depths) {
+    constexpr double behind_all = 3e38; // CORE_FAR
+    fill_empty();
+    std::vector<double> finite(depths.begin(), depths.end());
+    std::ranges::replace_if(
+        finite, [](double depth) { return !(depth < behind_all); }, behind_all);
+    write_reals(*m_depths, m_precision, finite);
+    m_is_empty = false;
 }
 
 void MergePass::finish() {

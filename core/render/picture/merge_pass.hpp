@@ -9,6 +9,7 @@
 #include <core/shader/composer.hpp>
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -41,6 +42,9 @@ public:
 
     /** Colours of the background, if nothing was merged. */
     void fill_empty();
+    /** Instead of merging: opaque surfaces that are not drawn lie at these depths, one a pixel, infinite where there is none.
+     */
+    void hide_behind(std::span<const double> depths);
     /** Depth of the nearest opaque surface, one real a pixel, CORE_FAR where there is none; null if nothing was merged. */
     const Buffer* depths() const { return m_is_empty ? nullptr : m_depths.get(); }
     /** Transparent layers; in each pixel they are in order, the nearest first. */

@@ -81,6 +81,8 @@ struct VolumePass::Picture {
     const Buffer *depths, *stops;
     WalkRays rays;
     bool only_live;
+    /** Where light goes on the way; null if all stays with the rays. */
+    LightRuns* runs;
 };
 
 namespace {
@@ -249,6 +251,9 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
             spare();
             m_search.seek(index, picture.rays, live);
         }
+        if (picture.runs != nullptr) {
+            picture.runs->take(m_frame, *m_states, false);
+        }
         for (std::size_t index = 0; index < m_march.size(); ++index) {
             if (picture.only_live) {
                 const WalkSearch::Range& range = m_search.ranges()[index];
@@ -261,32 +266,55 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
     }
 }
 
-void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
-                      FrameCounts& counts) {
+VolumePass::Picture VolumePass::begin(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged,
+                                      bool only_live, double color_error, FrameCounts& counts) {
     const Layer& layer = merged.picture();
     const Buffer& states = provide_buffer(m_states, m_device, layer.n_pixels() * volume_state_bytes(m_precision));
     write_view(m_frame, m_precision, view);
     m_walk_data.look_from(start);
-    Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live};
+    Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live, nullptr};
+    const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
+    const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance),
+                                     static_cast<float>(color_error)};
+    dispatch_pixels(m_begin, {&states}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
+    m_search.list_starts(picture.rays);
+    m_live.begin(states, m_search.has_starts(), layer.width, layer.height);
+    counts.mapping_evaluations += m_search.start_at_eyes(picture.rays, m_live.all());
+    return picture;
+}
+
+void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
+                      FrameCounts& counts) {
+    Picture picture = begin(view, start, merged, only_live, m_color_error, counts);
+    const Layer& layer = picture.layer;
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance),
                                      static_cast<float>(m_color_error)};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
-    dispatch_pixels(m_begin, {&states}, bytes, n_pixels);
-    m_search.list_starts(picture.rays);
-    m_live.begin(states, m_search.has_starts(), layer.width, layer.height);
-    counts.mapping_evaluations += m_search.start_at_eyes(picture.rays, m_live.all());
     for (std::size_t i = 0; i < merged.n_transparent_layers(); ++i) {
         picture.stops = &merged.transparent_layer(i).depths;
         march_all(picture, counts);
-        dispatch_rows(m_transparent_layer, {&states, &merged.transparent_layer(i).colors, picture.stops, picture.depths}, bytes,
-                      layer);
+        dispatch_rows(m_transparent_layer, {&*m_states, &merged.transparent_layer(i).colors, picture.stops, picture.depths},
+                      bytes, layer);
     }
     picture.stops = nullptr;
     march_all(picture, counts);
     m_counts.fill(0);
-    dispatch_pixels(m_finish, {&states, &layer.colors, &layer.marks, &m_counts}, bytes, n_pixels);
+    dispatch_pixels(m_finish, {&*m_states, &layer.colors, &layer.marks, &m_counts}, bytes, n_pixels);
     counts.volume_pixels += m_counts.read_items<std::uint32_t>(n_counts)[volume_pixels];
+}
+
+std::vector<LightRun> VolumePass::runs(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged,
+                                       bool only_live, FrameCounts& counts) {
+    Picture picture = begin(view, start, merged, only_live, 0, counts);
+    if (!m_runs) {
+        m_runs.emplace(m_device, m_precision);
+    }
+    picture.runs = &*m_runs;
+    m_runs->begin(picture.layer.width, picture.layer.height);
+    march_all(picture, counts);
+    m_runs->take(m_frame, *m_states, true);
+    return m_runs->sorted();
 }
 
 } // namespace elvis

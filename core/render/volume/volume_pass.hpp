@@ -9,6 +9,7 @@
 #include <core/render/picture/layer.hpp>
 #include <core/render/picture/merge_pass.hpp>
 #include <core/render/segments/walk_search.hpp>
+#include <core/render/volume/light_runs.hpp>
 #include <core/render/volume/live_rays.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/isosurface/linear_models.hpp>
@@ -42,8 +43,16 @@ public:
     void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
               FrameCounts& counts);
 
+    /** The same light in runs (core/render/volume/light_run.hpp), by pixel and along each ray, without color_error(). */
+    std::vector<LightRun> runs(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
+                               FrameCounts& counts);
+    /** What each channel of a ray's light is off because colours have few breakpoints. */
+    double color_error() const { return m_color_error; }
+
 private:
     struct Picture;
+    Picture begin(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
+                  double color_error, FrameCounts& counts);
     /** `index`: among the search's ranges of elements. */
     const ComposedKernel& march_kernel(std::size_t index);
     void march(std::size_t index, const Picture& picture, const RayGroups& groups);
@@ -72,6 +81,8 @@ private:
     std::optional<Buffer> m_breakpoints, m_pieces;
     /** Kept from frame to frame. */
     std::optional<Buffer> m_states;
+    /** Made when first wanted: few pictures do. */
+    std::optional<LightRuns> m_runs;
 };
 
 } // namespace elvis

@@ -54,7 +54,10 @@ std::string joined(const std::vector<std::string>& parts) {
 Hdf5Handle write_dataset(hid_t file, const Frame& frame, const Dataset& dataset, const void* data) {
     const hsize_t shape[3] = {frame.height, frame.width, dataset.n_channels};
     const Hdf5Handle space(H5Screate_simple(dataset.n_channels > 1 ? 3 : 2, shape, nullptr), H5Sclose);
-    Hdf5Handle written(H5Dcreate2(file, dataset.name, dataset.in_file, space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+    // Without the time of writing: equal pictures make equal files.
+    const Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(properties.id(), false);
+    Hdf5Handle written(H5Dcreate2(file, dataset.name, dataset.in_file, space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
                        H5Dclose);
     if (H5Dwrite(written.id(), dataset.in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
         throw std::runtime_error("cannot be written");

@@ -113,19 +113,22 @@ void Volume::element_numbers(std::uint64_t first, std::span<std::int64_t> number
 std::int64_t Volume::position(std::int64_t number) const {
     if (number < 0)
         return number;
-    if (static_cast<std::uint64_t>(number) >= m_positions.size())
+    const auto place = static_cast<std::uint64_t>(number - m_lowest_number);
+    if (number < m_lowest_number || place >= m_positions.size() || m_positions[place] < 0)
         throw error(ELVIS_ERROR_FORMAT, "the faces name element " + std::to_string(number) + ", which does not exist");
-    return m_positions[static_cast<std::size_t>(number)];
+    return m_positions[place];
 }
 
 void Volume::faces(std::uint64_t first, std::span<elvis_face> faces) const {
     if (m_positions.empty()) {
         std::vector<std::int64_t> numbers(n_elements());
         element_numbers(0, numbers);
-        m_positions.resize(numbers.size());
-        // The reader makes sure that each of 0 .. n-1 is there once.
+        // Of a file each of 0 .. n-1 is there once, as its reader makes sure; some of the elements have some of the numbers.
+        const auto [lowest, highest] = std::ranges::minmax(numbers);
+        m_lowest_number = lowest;
+        m_positions.assign(static_cast<std::size_t>(highest - lowest) + 1, -1);
         for (std::size_t i = 0; i < numbers.size(); ++i)
-            m_positions[static_cast<std::size_t>(numbers[i])] = static_cast<std::int64_t>(i);
+            m_positions[static_cast<std::size_t>(numbers[i] - lowest)] = static_cast<std::int64_t>(i);
     }
     std::vector<native::Face> read(faces.size());
     read_file([&] { m_source->read_faces(first, read.size(), read); });

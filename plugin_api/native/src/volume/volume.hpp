@@ -157,8 +157,9 @@ private:
         std::unique_ptr<const native::DerivativeBounder> bounder;
     };
     mutable std::vector<KnownBounder> m_derivative_bounders;
-    /** Of the elements by number; filled when faces are first asked for. */
+    /** Of the elements by number, from the lowest on, -1 where there is none; filled when faces are first asked for. */
     mutable std::vector<std::int64_t> m_positions;
+    mutable std::int64_t m_lowest_number = 0;
 };
 
 template <class Visit> void Volume::for_each_run(std::uint64_t first, std::uint64_t count, Visit visit) const {

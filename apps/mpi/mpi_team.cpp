@@ -1,0 +1,110 @@
+#include "mpi_team.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+namespace elvis {
+
+namespace {
+
+/** MPI counts with int: what is larger goes in pieces. */
+constexpr std::size_t most_at_once = std::size_t{1} << 30;
+
+/** Calls pass(first, count as int) for one piece after the other. */
+template <class Pass> void in_pieces(std::size_t n, std::size_t most, Pass pass) {
+    for (std::size_t done = 0; done < n; done += most) {
+        pass(done, static_cast<int>(std::min(most, n - done)));
+    }
+}
+
+/** How many things each process has; on all. */
+std::vector<std::uint64_t> sizes_of_all(std::uint64_t own, std::uint32_t n_ranks) {
+    std::vector<std::uint64_t> sizes(n_ranks);
+    MPI_Allgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+    return sizes;
+}
+
+} // namespace
+
+MpiTeam::MpiTeam(int& argc, char**& argv) {
+    int thread_support = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &thread_support);
+    int rank = 0, size = 1, local_rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    MPI_Comm machine = MPI_COMM_NULL;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine);
+    MPI_Comm_rank(machine, &local_rank);
+    MPI_Comm_free(&machine);
+    m_rank = static_cast<std::uint32_t>(rank);
+    m_size = static_cast<std::uint32_t>(size);
+    m_local_rank = static_cast<std::uint32_t>(local_rank);
+}
+
+MpiTeam::~MpiTeam() { MPI_Finalize(); }
+
+void MpiTeam::minimum(std::span<double> numbers) {
+    in_pieces(numbers.size(), most_at_once / sizeof(double), [&](std::size_t first, int count) {
+        MPI_Allreduce(MPI_IN_PLACE, numbers.data() + first, count, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+    });
+}
+
+std::vector<double> MpiTeam::joined(std::vector<double> numbers) {
+    const std::vector<std::uint64_t> sizes = sizes_of_all(numbers.size(), m_size);
+    std::vector<double> all;
+    for (std::uint32_t rank = 0; rank < m_size; ++rank) {
+        const std::size_t before = all.size();
+        all.resize(before + sizes[rank]);
+        if (rank == m_rank) {
+            std::ranges::copy(numbers, all.begin() + static_cast<std::ptrdiff_t>(before));
+        }
+        in_pieces(sizes[rank], most_at_once / sizeof(double), [&](std::size_t first, int count) {
+            MPI_Bcast(all.data() + before + first, count, MPI_DOUBLE, static_cast<int>(rank), MPI_COMM_WORLD);
+        });
+    }
+    return all;
+}
+
+std::vector<double> MpiTeam::of_first(std::vector<double> numbers) {
+    std::uint64_t size = numbers.size();
+    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    numbers.resize(size);
+    in_pieces(size, most_at_once / sizeof(double),
+              [&](std::size_t first, int count) { MPI_Bcast(numbers.data() + first, count, MPI_DOUBLE, 0, MPI_COMM_WORLD); });
+    return numbers;
+}
+
+std::vector<std::vector<std::byte>> MpiTeam::gathered(std::vector<std::byte> bytes) {
+    const std::vector<std::uint64_t> sizes = sizes_of_all(bytes.size(), m_size);
+    if (!is_first()) {
+        in_pieces(bytes.size(), most_at_once,
+                  [&](std::size_t first, int count) { MPI_Send(bytes.data() + first, count, MPI_BYTE, 0, 0, MPI_COMM_WORLD); });
+        return {};
+    }
+    std::vector<std::vector<std::byte>> all;
+    all.push_back(std::move(bytes));
+    for (std::uint32_t rank = 1; rank < m_size; ++rank) {
+        std::vector<std::byte>& theirs = all.emplace_back(sizes[rank]);
+        in_pieces(theirs.size(), most_at_once, [&](std::size_t first, int count) {
+            MPI_Recv(theirs.data() + first, count, MPI_BYTE, static_cast<int>(rank), 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        });
+    }
+    return all;
+}
+
+void MpiTeam::fail(const std::string& message, int status) const {
+    // Those who fail at the same time do so within some milliseconds.
+    constexpr std::chrono::milliseconds pause{200}, longest{4000};
+    std::this_thread::sleep_for(std::min(longest, m_rank * pause));
+    std::fprintf(stderr, "elvis-mpi: rank %u: %s\n", m_rank, message.c_str());
+    std::fflush(stderr);
+    MPI_Abort(MPI_COMM_WORLD, status);
+    std::abort();
+}
+
+} // namespace elvis

@@ -1,0 +1,354 @@
+#include <core/parts/draw_in_parts.hpp>
+
+#include <core/base/bounds.hpp>
+#include <core/base/error.hpp>
+#include <core/expression/expression.hpp>
+#include <core/parts/fold.hpp>
+#include <core/parts/part_picture.hpp>
+#include <core/parts/part_volume.hpp>
+#include <core/parts/partition.hpp>
+#include <core/parts/whole_ranges.hpp>
+#include <core/render/bands.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/session/missed_surfaces.hpp>
+#include <core/session/warped.hpp>
+
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+/** Of the diagonal: boxes that are so close belong to elements that may share a point, whatever is rounded. */
+constexpr double close_by = 1e-6;
+/** Elements whose bounds are read at once. */
+constexpr std::uint64_t elements_at_once = 16384;
+
+/** Six numbers an element. */
+std::vector<double> boxes_of(const RuntimeVolume& volume, const Span& elements, const TaskControl* control) {
+    std::vector<double> boxes(6 * elements.size());
+    for (std::uint64_t done = 0; done < elements.size(); done += elements_at_once) {
+        if (control != nullptr) {
+            control->check();
+        }
+        const std::uint64_t count = std::min(elements_at_once, elements.size() - done);
+        volume.bounds(elements.first + done, count, std::span(boxes).subspan(6 * done, 6 * count));
+    }
+    return boxes;
+}
+
+/** Whether elements are some of a part's own, by their numbers. */
+class OwnNumbers {
+public:
+    OwnNumbers(const RuntimeVolume& whole, const Span& elements) : m_numbers(elements.size()) {
+        whole.element_numbers(elements.first, elements.size(), m_numbers);
+        std::ranges::sort(m_numbers);
+    }
+    bool hold(std::int64_t number) const { return std::ranges::binary_search(m_numbers, number); }
+
+private:
+    std::vector<std::int64_t> m_numbers;
+};
+
+/** A part that holds elements. */
+struct DrawnPart {
+    DrawnPart(std::uint32_t which, OwnNumbers numbers, RuntimeVolume opened, const Device& device, Precision precision,
+              const TaskControl* control, const std::array<double, 6>& bounds)
+        : part(which), own(std::move(numbers)), volume(std::move(opened)),
+          renderer(device, volume, precision, control, bounds) {}
+
+    std::uint32_t part;
+    OwnNumbers own;
+    RuntimeVolume volume;
+    Renderer renderer;
+};
+
+/** A part without the elements around it. */
+struct BarePart {
+    BarePart(std::uint32_t which, RuntimeVolume opened, const Device& device, Precision precision, const TaskControl* control,
+             const std::array<double, 6>& bounds)
+        : part(which), volume(std::move(opened)), renderer(device, volume, precision, control, bounds) {}
+
+    std::uint32_t part;
+    RuntimeVolume volume;
+    Renderer renderer;
+};
+
+std::uint64_t device_bytes(const Renderer& renderer) {
+    const RendererMemory memory = renderer.memory();
+    return memory.field_bytes + memory.geometry_bytes + memory.hierarchy_bytes;
+}
+
+std::set<std::uint32_t> fields_of(const FrameRequest& request) {
+    std::set<std::uint32_t> fields;
+    const auto add = [&](const FieldChoice& field) {
+        if (field.expression) {
+            const auto used = field.expression->fields();
+            fields.insert(used.begin(), used.end());
+        } else {
+            fields.insert(field.field);
+        }
+    };
+    for (const Surface& surface : request.surfaces) {
+        add(surface.field);
+        if (const Isosurfaces* const isosurfaces = traits_of(surface.geometry).isosurfaces) {
+            add(isosurfaces->field);
+        }
+    }
+    if (request.volume) {
+        add(request.volume->field);
+    }
+    return fields;
+}
+
+/** What colours go by is asked for by all, so that the first knows it when it has the picture. */
+void ask_about_isosurfaces(const FrameRequest& request, WholeRanges& ranges) {
+    for (const Surface& surface : request.surfaces) {
+        if (const Isosurfaces* const isosurfaces = traits_of(surface.geometry).isosurfaces) {
+            ranges.extrema(isosurfaces->field, request.time_step);
+            ranges.range(isosurfaces->field, request.time_step);
+        }
+    }
+}
+
+[[noreturn]] void refuse(const Scene& scene, const std::string& what) {
+    throw Error(scene.volume, what + " cannot be drawn in parts yet; without --parts it can");
+}
+
+void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
+    for (const Surface& surface : request.surfaces) {
+        if (surface.opacity < 1) {
+            refuse(scene, "a surface that can be seen through");
+        }
+        if (surface.outside) {
+            refuse(scene, "a surface with a colour where it lies in no element");
+        }
+        if (traits_of(surface.geometry).wires != nullptr) {
+            refuse(scene, "edges of elements as a surface of their own");
+        }
+        if (std::holds_alternative<ElementFaces>(surface.geometry)) {
+            refuse(scene, "the faces of chosen elements");
+        }
+    }
+}
+
+std::uint64_t peak_memory() {
+    rusage usage{};
+    constexpr std::uint64_t kibibyte = 1024;
+    return ::getrusage(RUSAGE_SELF, &usage) == 0 ? kibibyte * static_cast<std::uint64_t>(usage.ru_maxrss) : 0;
+}
+
+std::vector<PartPicture> all_pictures(const std::vector<std::vector<std::byte>>& of_ranks) {
+    std::vector<PartPicture> pictures;
+    for (const std::vector<std::byte>& bytes : of_ranks) {
+        std::ranges::move(unpacked(bytes), std::back_inserter(pictures));
+    }
+    return pictures;
+}
+
+} // namespace
+
+struct VolumeInParts::Impl {
+    std::shared_ptr<const native::VolumeSource> source;
+    const RuntimeVolume& whole;
+    const Device& device;
+    Precision precision;
+    std::uint32_t n_parts;
+    Team& team;
+    const TaskControl* control;
+    std::vector<double> boxes{};
+    std::vector<std::unique_ptr<DrawnPart>> parts{};
+    /** Of the same parts; there when light is first wanted. */
+    std::vector<std::unique_ptr<BarePart>> bare_parts{};
+    std::vector<Renderer*> renderers{};
+    std::unique_ptr<WholeRanges> ranges{};
+    PartsWork work{};
+
+    Span own_parts() const { return share(n_parts, team.size(), team.rank()); }
+    Span elements_of(std::uint64_t part) const { return share(whole.n_elements(), n_parts, static_cast<std::uint32_t>(part)); }
+    void read_boxes();
+    RuntimeVolume opened(std::span<const std::uint64_t> elements) const;
+    void open_part(std::uint32_t part, const std::array<double, 6>& bounds);
+    void open_bare_parts();
+    void share_ranges(const FrameRequest& request);
+    std::vector<std::byte> draw_own(const FrameRequest& request);
+    std::vector<std::byte> draw_own_light(const FrameRequest& request, std::vector<double> depths);
+    Frame draw_surfaces(const FrameRequest& request);
+    void draw_light(const FrameRequest& request, Frame& frame);
+    std::vector<PartsWork> work_of_all();
+};
+
+void VolumeInParts::Impl::read_boxes() {
+    const Span own = own_parts();
+    const Span elements{elements_of(own.first).first, elements_of(own.end).first};
+    boxes = team.joined(boxes_of(whole, elements, control));
+}
+
+RuntimeVolume VolumeInParts::Impl::opened(std::span<const std::uint64_t> elements) const {
+    return serve_native(std::make_shared<const PartVolume>(source, by_class(whole, elements)), whole.path(), control);
+}
+
+void VolumeInParts::Impl::open_bare_parts() {
+    for (std::size_t index = bare_parts.size(); index < parts.size(); ++index) {
+        const std::uint32_t part = parts[index]->part;
+        const Span own = elements_of(part);
+        std::vector<std::uint64_t> elements(own.size());
+        std::iota(elements.begin(), elements.end(), own.first);
+        bare_parts.push_back(std::make_unique<BarePart>(part, opened(elements), device, precision, control, ranges->bounds()));
+    }
+}
+
+void VolumeInParts::Impl::open_part(std::uint32_t part, const std::array<double, 6>& bounds) {
+    const Span own = elements_of(part);
+    const std::vector<std::uint64_t> elements = with_surroundings(boxes, own, close_by * diagonal_of(bounds));
+    parts.push_back(
+        std::make_unique<DrawnPart>(part, OwnNumbers(whole, own), opened(elements), device, precision, control, bounds));
+    renderers.push_back(&parts.back()->renderer);
+    ++work.n_parts;
+    work.n_own_elements += own.size();
+    work.n_elements += elements.size();
+}
+
+/** Of fields the device has what is left when the middle of their range is taken away: of all parts the same middle. */
+void VolumeInParts::Impl::share_ranges(const FrameRequest& request) {
+    for (const std::uint32_t field : fields_of(request)) {
+        const VolumeRanges::Ranges all = ranges->of_components(field, request.time_step);
+        for (Renderer* const renderer : renderers) {
+            renderer->ranges().set_components(field, request.time_step, all);
+        }
+        for (const std::unique_ptr<BarePart>& part : bare_parts) {
+            part->renderer.ranges().set_components(field, request.time_step, all);
+        }
+    }
+}
+
+std::vector<std::byte> VolumeInParts::Impl::draw_own(const FrameRequest& request) {
+    std::vector<std::byte> bytes;
+    for (const std::unique_ptr<DrawnPart>& part : parts) {
+        std::array<Renderer*, 1> alone{&part->renderer};
+        Frame frame = render_in_bands(alone, request, control);
+        const auto is_own = [&](std::int64_t number) { return part->own.hold(number); };
+        pack(part_picture(part->part, std::move(frame), is_own), bytes);
+        work.device_bytes += device_bytes(part->renderer);
+    }
+    work.picture_bytes += bytes.size();
+    return bytes;
+}
+
+/** `depths`: of what hides the volume, of each pixel. */
+std::vector<std::byte> VolumeInParts::Impl::draw_own_light(const FrameRequest& request, std::vector<double> depths) {
+    FrameRequest light = request;
+    light.surfaces.clear();
+    light.with_buffers = false;
+    light.hidden_from = std::make_shared<const std::vector<double>>(std::move(depths));
+    std::vector<std::byte> bytes;
+    for (const std::unique_ptr<BarePart>& part : bare_parts) {
+        if (part->renderer.most_pixels(light) < std::uint64_t{light.width} * light.height) {
+            throw Error("image", "a picture of so many pixels of the volume itself cannot be drawn in parts on this device");
+        }
+        pack(part_picture(part->part, part->renderer.render(light, control), {}), bytes);
+        work.device_bytes += device_bytes(part->renderer);
+    }
+    work.picture_bytes += bytes.size();
+    return bytes;
+}
+
+/** Of the first process; elsewhere empty. */
+Frame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request) {
+    FrameRequest surfaces = request;
+    surfaces.volume.reset();
+    const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own(surfaces)));
+    return team.is_first() ? folded(surfaces, pictures, diagonal_of(ranges->bounds()), precision) : Frame{};
+}
+
+void VolumeInParts::Impl::draw_light(const FrameRequest& request, Frame& frame) {
+    std::vector<double> depths = frame.depth;
+    std::ranges::replace_if(
+        depths, [](double depth) { return std::isnan(depth); }, std::numeric_limits<double>::infinity());
+    depths = team.of_first(std::move(depths));
+    const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own_light(request, std::move(depths))));
+    if (team.is_first()) {
+        add_light(request, pictures, diagonal_of(ranges->bounds()), frame);
+    }
+}
+
+std::vector<PartsWork> VolumeInParts::Impl::work_of_all() {
+    work.rank = team.rank();
+    work.peak_memory_bytes = peak_memory();
+    const auto own = std::as_bytes(std::span(&work, 1));
+    std::vector<PartsWork> all;
+    for (const std::vector<std::byte>& bytes : team.gathered({own.begin(), own.end()})) {
+        std::memcpy(&all.emplace_back(), bytes.data(), sizeof work);
+    }
+    return all;
+}
+
+VolumeInParts::VolumeInParts(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole,
+                             const Device& device, Precision precision, std::uint32_t n_parts, Team& team,
+                             const TaskControl* control)
+    : m_impl(new Impl{std::move(source), whole, device, precision, n_parts, team, control}) {
+    Impl& impl = *m_impl;
+    impl.read_boxes();
+    const std::array<double, 6> bounds = box_around(impl.boxes);
+    const Span own = impl.own_parts();
+    for (std::uint64_t part = own.first; part < own.end; ++part) {
+        if (impl.elements_of(part).size() > 0) {
+            impl.open_part(static_cast<std::uint32_t>(part), bounds);
+        }
+    }
+    impl.ranges = std::make_unique<WholeRanges>(whole, *impl.source, impl.boxes, impl.renderers, team);
+}
+
+VolumeInParts::~VolumeInParts() = default;
+
+PartsPicture VolumeInParts::draw(const Scene& scene) {
+    Impl& impl = *m_impl;
+    need_parts_can_draw(scene);
+    PartsPicture picture;
+    FrameRequest& request = picture.still.request;
+    request = make_frame_request(scene, impl.whole, *impl.ranges);
+    need_parts_can_draw(request, scene);
+    request.with_buffers = true;
+    ask_about_isosurfaces(request, *impl.ranges);
+    if (request.volume) {
+        impl.open_bare_parts();
+    }
+    impl.share_ranges(request);
+    impl.work.device_bytes = impl.work.picture_bytes = 0;
+    picture.still.frame = impl.draw_surfaces(request);
+    if (request.volume) {
+        impl.draw_light(request, picture.still.frame);
+    }
+    picture.work = impl.work_of_all();
+    if (impl.team.is_first()) {
+        picture.still.remarks = remarks_on(scene, request);
+        finish_still(scene, impl.whole, picture.still);
+        MissedSurfaces missed;
+        missed.add(request, picture.still.frame);
+        for (const std::string& text : missed.remarks(scene, request, *impl.ranges)) {
+            picture.still.remarks.push_back({true, text});
+        }
+    }
+    return picture;
+}
+
+void need_parts_can_draw(const Scene& scene) {
+    if (scene.samples > 1) {
+        refuse(scene, "several samples a pixel");
+    }
+    if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.streamlines.has_value(); })) {
+        refuse(scene, "streamlines");
+    }
+}
+
+} // namespace elvis

@@ -1,0 +1,68 @@
+/**
+ * @file draw_in_parts.hpp
+ * Pictures of a volume that is drawn part by part, by one process or by several that have different parts.
+ */
+#pragma once
+
+#include <core/base/cancel.hpp>
+#include <core/parts/team.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
+#include <core/scene/scene.hpp>
+#include <core/session/still_picture.hpp>
+#include <core/vulkan/device.hpp>
+
+#include <elvis/native/volume_source.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace elvis {
+
+/** What one process had of a picture. */
+struct PartsWork {
+    std::uint32_t rank = 0;
+    /** Parts that hold elements; of them elements, with those around them. */
+    std::uint64_t n_parts = 0, n_own_elements = 0, n_elements = 0;
+    /** On the device, and of parts' pictures that were given to the first process. */
+    std::uint64_t device_bytes = 0, picture_bytes = 0;
+    /** Most that the process has had in memory so far; 0 if the system does not tell. */
+    std::uint64_t peak_memory_bytes = 0;
+};
+
+/** A picture of the whole volume, on the team's first process; elsewhere without any pixel. */
+struct PartsPicture {
+    StillPicture still;
+    /** By rank; on the first alone. */
+    std::vector<PartsWork> work;
+};
+
+/**
+ * A native volume in parts (core/parts/partition.hpp). Each process opens, with those elements around them that lie close by,
+ * the parts that it owns, and nothing else. The picture is the same to the bit for every number of processes, and that of the
+ * whole volume but for rounding.
+ */
+class VolumeInParts {
+public:
+    /**
+     * `whole` serves `source`: of it is read what is written down of the structure, and bounds of own elements. All must
+     * outlive it. Called by all members of the team, as is draw().
+     */
+    VolumeInParts(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole, const Device& device,
+                  Precision precision, std::uint32_t n_parts, Team& team, const TaskControl* control = nullptr);
+    ~VolumeInParts();
+    VolumeInParts(const VolumeInParts&) = delete;
+    VolumeInParts& operator=(const VolumeInParts&) = delete;
+
+    /** Throws Error for what cannot be drawn in parts (need_parts_can_draw). */
+    PartsPicture draw(const Scene& scene);
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> m_impl;
+};
+
+/** Throws Error if the scene has what is surely not drawn in parts: streamlines, several samples a pixel. */
+void need_parts_can_draw(const Scene& scene);
+
+} // namespace elvis

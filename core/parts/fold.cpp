@@ -1,0 +1,308 @@
+#include <core/parts/fold.hpp>
+
+#include <core/render/bands.hpp>
+#include <core/render/picture/flags_pass.hpp>
+#include <core/render/picture/frame_read.hpp>
+#include <core/scene/camera_ray.hpp>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <vector>
+
+namespace elvis {
+
+namespace {
+
+constexpr double behind_everything = std::numeric_limits<double>::infinity();
+/** Of the diagonal: much more than the depth of one surface differs by between two parts' pictures. */
+constexpr double same_depth = 1e-4;
+/** What was perhaps not found holds whatever others show. */
+constexpr std::uint32_t misses =
+    pixel_flag::newton_failure | pixel_flag::isosurface_undecided | pixel_flag::work_limit | pixel_flag::estimated;
+/** So does what may be in front of an element of the part's own. Of elements around it another part knows better. */
+constexpr std::uint32_t own_doubts = misses | pixel_flag::undecided | pixel_flag::overlap;
+
+/** What a pixel shows so far. */
+struct Shown {
+    const PartPixel* own = nullptr;
+    /** Of elements around the parts. */
+    const PartPixel* other = nullptr;
+    std::uint32_t part = 0;
+    std::uint32_t doubt = 0;
+    /** Of parts that show nothing there, which may have lines that end in the pixel. */
+    std::uint32_t beside = 0;
+};
+
+bool is_nearer(const PartPixel& one, const PartPixel* than) { return than == nullptr || one.depth < than->depth; }
+
+std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPicture> pictures) {
+    std::vector<Shown> shown(n_pixels);
+    for (const PartPicture& picture : pictures) {
+        for (const PartPixel& pixel : picture.pixels) {
+            Shown& here = shown[pixel.pixel];
+            here.doubt |= pixel.flags & (pixel.is_hit() && pixel.is_own == 0 ? misses : own_doubts);
+            here.beside |= pixel.is_hit() ? 0 : pixel.flags;
+            if (pixel.is_own != 0 && is_nearer(pixel, here.own)) {
+                here.own = &pixel;
+                here.part = picture.part;
+            } else if (pixel.is_own == 0 && pixel.is_hit() && is_nearer(pixel, here.other)) {
+                here.other = &pixel;
+            }
+        }
+    }
+    return shown;
+}
+
+/** Among parts that do not agree, the nearest; with doubt. */
+void settle(std::vector<Shown>& shown, double tolerance) {
+    for (Shown& here : shown) {
+        const double own_depth = here.own != nullptr ? here.own->depth : behind_everything;
+        if (here.other != nullptr && here.other->depth < own_depth - tolerance) {
+            here.own = here.other;
+            here.doubt |= pixel_flag::undecided;
+        }
+    }
+}
+
+/** Of surfaces that are not met in the pixel's middle: whether their lines are hidden there only the whole could tell. */
+std::uint32_t as_open(std::uint32_t flags) {
+    return ((flags & pixel_flag::contour) != 0 ? pixel_flag::contour_undecided : 0) |
+           ((flags & pixel_flag::mesh_line) != 0 ? pixel_flag::mesh_line_undecided : 0);
+}
+
+/** What is found is no longer open. */
+std::uint32_t settled(std::uint32_t flags) {
+    flags &= (flags & pixel_flag::contour) != 0 ? ~pixel_flag::contour_undecided : ~0u;
+    return flags & ((flags & pixel_flag::mesh_line) != 0 ? ~pixel_flag::mesh_line_undecided : ~0u);
+}
+
+void write_pixels(const std::vector<Shown>& shown, Frame& frame) {
+    for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
+        const std::uint32_t beside = shown[pixel].beside;
+        frame.flags[pixel] = settled(shown[pixel].doubt | beside);
+        if (const PartPixel* const from = shown[pixel].own) {
+            frame.flags[pixel] = settled(shown[pixel].doubt | as_open(beside) | from->flags);
+            frame.element[pixel] = from->element;
+            frame.value[pixel] = from->value;
+            frame.depth[pixel] = from->depth;
+            std::ranges::copy(from->normal, &frame.normal[3 * pixel]);
+            std::ranges::copy(from->color, &frame.color[4 * pixel]);
+        }
+    }
+}
+
+/** Of the widest lines, in pixels; 0 if there are none. */
+double width_of_lines(const FrameRequest& request) {
+    double width = 0;
+    for (const Surface& surface : request.surfaces) {
+        width = surface.contours ? std::max(width, surface.contours->style.width) : width;
+        width = surface.mesh_lines ? std::max(width, surface.mesh_lines->style.width) : width;
+    }
+    return width;
+}
+
+std::uint32_t open_lines(const FrameRequest& request) {
+    std::uint32_t flags = 0;
+    for (const Surface& surface : request.surfaces) {
+        flags |= surface.contours ? pixel_flag::contour_undecided : 0;
+        flags |= surface.mesh_lines ? pixel_flag::mesh_line_undecided : 0;
+    }
+    return flags;
+}
+
+/** Elements that a part's picture shows. */
+std::vector<std::int64_t> elements_seen(std::size_t n_pixels, const PartPicture& picture) {
+    std::vector<std::int64_t> elements(n_pixels, -1);
+    for (const PartPixel& pixel : picture.pixels) {
+        elements[pixel.pixel] = pixel.element;
+    }
+    return elements;
+}
+
+/**
+ * Flags lines of pixels near which their part does not see what the picture shows. Lines of one pixel depend on what lies in
+ * the pixel, so on neighbours that show the same surface; wide ones on all from where they reach the pixel.
+ */
+class LineDoubts {
+public:
+    LineDoubts(const FrameRequest& request, Frame& frame)
+        : m_request(request), m_width(width_of_lines(request)), m_reach(1 + static_cast<int>(std::ceil(0.5 * m_width - 0.5))),
+          m_flags(open_lines(request)), m_frame(frame) {}
+
+    void flag(std::span<const PartPicture> pictures, const std::vector<Shown>& shown) {
+        for (const PartPicture& picture : pictures) {
+            const std::vector<std::int64_t> seen = elements_seen(shown.size(), picture);
+            for (std::size_t pixel = 0; m_flags != 0 && pixel < shown.size(); ++pixel) {
+                if (shown[pixel].own != nullptr && shown[pixel].part == picture.part && is_open(pixel, seen)) {
+                    doubt(pixel);
+                }
+            }
+        }
+    }
+
+private:
+    bool is_open(std::size_t pixel, const std::vector<std::int64_t>& seen) const {
+        const auto width = static_cast<std::ptrdiff_t>(m_frame.width), height = static_cast<std::ptrdiff_t>(m_frame.height);
+        const auto place = static_cast<std::ptrdiff_t>(pixel);
+        const std::ptrdiff_t column = place % width, row = place / width;
+        for (std::ptrdiff_t y = std::max<std::ptrdiff_t>(0, row - m_reach); y <= std::min(height - 1, row + m_reach); ++y) {
+            for (std::ptrdiff_t x = std::max<std::ptrdiff_t>(0, column - m_reach); x <= std::min(width - 1, column + m_reach);
+                 ++x) {
+                const auto there = static_cast<std::size_t>(y * width + x);
+                if (seen[there] != m_frame.element[there] && (m_width > 1 || may_be_one_surface(pixel, there))) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    Vector3 point_seen(std::size_t pixel) const {
+        const PictureSize size{static_cast<double>(m_frame.width), static_cast<double>(m_frame.height)};
+        const PicturePoint place{static_cast<double>(pixel % m_frame.width) + 0.5,
+                                 static_cast<double>(pixel / m_frame.width) + 0.5};
+        return ray_through(m_request.camera, size, place).at(m_frame.depth[pixel]);
+    }
+
+    /** Not where the way from one point to the other leads out of the surface rather than along it. */
+    bool may_be_one_surface(std::size_t pixel, std::size_t other) const {
+        constexpr double steepest = 0.7; // More than surfaces bend within a pixel, unless they are hardly resolved.
+        if (m_frame.element[other] < 0) {
+            return true;
+        }
+        const Vector3 way = minus(point_seen(other), point_seen(pixel));
+        const Vector3 normal{m_frame.normal[3 * pixel], m_frame.normal[3 * pixel + 1], m_frame.normal[3 * pixel + 2]};
+        return !(std::abs(dot(normal, way)) > steepest * length(way));
+    }
+
+    void doubt(std::size_t pixel) { m_frame.flags[pixel] = settled(m_frame.flags[pixel] | m_flags); }
+
+    const FrameRequest& m_request;
+    double m_width;
+    int m_reach;
+    std::uint32_t m_flags;
+    Frame& m_frame;
+};
+
+/** Of the picture, in place of the sums over the parts. */
+void count_pixels(Frame& frame) {
+    std::array<std::uint32_t, 17> found{}; // As FlagsPass counts them: by bit, then those that show a surface.
+    for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
+        for (std::uint32_t left = frame.flags[pixel]; left != 0; left &= left - 1) {
+            ++found[static_cast<std::size_t>(std::countr_zero(left))];
+        }
+        found.back() += frame.element[pixel] >= 0 ? 1 : 0;
+    }
+    FrameCounts& counts = frame.counts;
+    for (std::uint64_t* const of_pixels :
+         {&counts.hit_pixels, &counts.undecided_pixels, &counts.overlap_pixels, &counts.nan_pixels, &counts.work_limit_pixels,
+          &counts.estimated_pixels, &counts.isosurface_pixels, &counts.undecided_isosurface_pixels,
+          &counts.inexact_volume_pixels, &counts.contour_pixels, &counts.undecided_contour_pixels, &counts.mesh_line_pixels,
+          &counts.undecided_mesh_line_pixels}) {
+        *of_pixels = 0;
+    }
+    FlagsPass::add(found, counts);
+}
+
+/** A run, and whose it is. */
+struct OwnedRun {
+    const LightRun* run;
+    std::uint32_t part;
+};
+
+/** By pixel, then along the ray; those that begin together by part. */
+std::vector<OwnedRun> all_runs(std::span<const PartPicture> pictures) {
+    std::vector<OwnedRun> runs;
+    for (const PartPicture& picture : pictures) {
+        for (const LightRun& run : picture.facts.runs) {
+            runs.push_back({&run, picture.part});
+        }
+    }
+    std::ranges::stable_sort(
+        runs, {}, [](const OwnedRun& one) { return std::tuple(one.run->pixel, one.run->first, one.part, one.run->end); });
+    return runs;
+}
+
+/** As shaders/volume/volume_finish.comp. */
+void put_in_front(const LightRun& light, std::span<double> color) {
+    const double rest = color[3] * light.transmittance, alpha = 1 - light.transmittance + rest;
+    const std::array<double, 3> own{light.red, light.green, light.blue};
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        color[channel] = alpha > 0 ? (own[channel] + rest * color[channel]) / alpha : color[channel];
+    }
+    color[3] = alpha;
+}
+
+/** Of the diagonal: where faces between parts lie is rounded, far more where a ray grazes them. */
+constexpr double hardly_overlapping = 1e-4;
+
+} // namespace
+
+Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Precision precision) {
+    FrameRequest empty = request;
+    if (precision == Precision::float32) {
+        // As the device has it.
+        std::ranges::transform(request.background, empty.background.begin(),
+                               [](double channel) { return static_cast<double>(static_cast<float>(channel)); });
+    }
+    Frame frame = background_frame(empty);
+    std::uint64_t n_overlapping = 0;
+    for (const PartPicture& picture : pictures) {
+        add_part(picture.facts, frame);
+        n_overlapping = std::max(n_overlapping, picture.facts.counts.overlapping_elements);
+        frame.render_milliseconds += picture.facts.render_milliseconds;
+        frame.device_milliseconds += picture.facts.device_milliseconds;
+    }
+    // At least so many: an element may overlap some of another part.
+    frame.counts.overlapping_elements = n_overlapping;
+    std::vector<Shown> shown = nearest(frame.flags.size(), pictures);
+    settle(shown, same_depth * diagonal);
+    write_pixels(shown, frame);
+    LineDoubts(request, frame).flag(pictures, shown);
+    count_pixels(frame);
+    return frame;
+}
+
+void add_light(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Frame& frame) {
+    double color_error = 0;
+    for (const PartPicture& picture : pictures) {
+        // What is met, and what overlaps, is known from the surfaces.
+        Frame facts;
+        facts.counts = picture.facts.counts;
+        facts.counts.overlapping_elements = frame.counts.overlapping_elements;
+        facts.counts.half_drawn_elements = frame.counts.half_drawn_elements;
+        facts.submissions = picture.facts.submissions;
+        facts.host_waits = picture.facts.host_waits;
+        facts.is_met.resize(frame.is_met.size());
+        facts.special_values.resize(frame.special_values.size());
+        add_part(facts, frame);
+        frame.render_milliseconds += picture.facts.render_milliseconds;
+        frame.device_milliseconds += picture.facts.device_milliseconds;
+        color_error = std::max(color_error, picture.facts.color_error);
+    }
+    std::uint64_t n_colored = 0;
+    const std::vector<OwnedRun> runs = all_runs(pictures);
+    for (auto next = runs.begin(); next != runs.end();) {
+        LightRun light;
+        light.pixel = next->run->pixel;
+        light.error = color_error;
+        for (; next != runs.end() && next->run->pixel == light.pixel; ++next) {
+            light.flags |= next->run->first < light.end - hardly_overlapping * diagonal ? pixel_flag::undecided : 0;
+            add_behind(light, *next->run);
+        }
+        frame.flags[light.pixel] |= light.flags;
+        frame.flags[light.pixel] |= error_of(light) <= request.volume->tolerance ? 0 : pixel_flag::volume_tolerance;
+        if (light.transmittance < 1) {
+            put_in_front(light, std::span(frame.color).subspan(4 * std::size_t{light.pixel}, 4));
+            ++n_colored;
+        }
+    }
+    count_pixels(frame);
+    frame.counts.volume_pixels = n_colored;
+}
+
+} // namespace elvis

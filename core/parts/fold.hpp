@@ -1,0 +1,31 @@
+/**
+ * @file fold.hpp
+ * One picture from those of the parts.
+ */
+#pragma once
+
+#include <core/parts/part_picture.hpp>
+#include <core/render/frame.hpp>
+#include <core/vulkan/precision.hpp>
+
+#include <span>
+
+namespace elvis {
+
+/**
+ * Of each pixel the nearest that a part shows of its own elements: the part has drawn them together with those around, so that
+ * it is the part which owns the element that the whole picture shows. Where parts do not agree on which one that is, rounding
+ * decides, and the pixel is flagged as undecided (256). Doubt of any part stays. `pictures`: one of each part, in their order.
+ * `diagonal`: of the whole volume's bounds. With lines, pixels near which the part does not see what the picture shows are
+ * flagged as undecided (2, 512).
+ */
+Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Precision precision);
+
+/**
+ * Puts light of the volume in front of what the picture shows: along each ray the runs of all parts, in the order in which they
+ * begin. What each is off adds up; where that is more than the tolerance the pixel is flagged (128), and as undecided (256)
+ * where runs overlap by more than rounding.
+ */
+void add_light(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Frame& frame);
+
+} // namespace elvis

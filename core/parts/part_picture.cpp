@@ -1,0 +1,104 @@
+#include <core/parts/part_picture.hpp>
+
+#include <cassert>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+template <class T> void put(std::vector<std::byte>& bytes, std::span<const T> items) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto raw = std::as_bytes(items);
+    bytes.insert(bytes.end(), raw.begin(), raw.end());
+}
+
+template <class T> void put(std::vector<std::byte>& bytes, const T& item) { put(bytes, std::span<const T>(&item, 1)); }
+
+template <class T> std::vector<T> take_items(std::span<const std::byte>& bytes, std::size_t n) {
+    assert(bytes.size() >= n * sizeof(T));
+    std::vector<T> items(n);
+    if (n > 0) {
+        std::memcpy(items.data(), bytes.data(), n * sizeof(T));
+    }
+    bytes = bytes.subspan(n * sizeof(T));
+    return items;
+}
+
+template <class T> T take(std::span<const std::byte>& bytes) { return take_items<T>(bytes, 1).front(); }
+
+struct Facts {
+    std::uint64_t n_pixels, n_runs;
+    FrameCounts counts;
+    double color_error, render_milliseconds, device_milliseconds;
+    std::uint64_t submissions, host_waits;
+    std::uint32_t part, width, height, n_surfaces, n_special;
+};
+
+} // namespace
+
+PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own) {
+    PartPicture picture;
+    picture.part = part;
+    for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
+        PartPixel found;
+        found.pixel = static_cast<std::uint32_t>(pixel);
+        found.flags = frame.flags[pixel];
+        found.element = frame.element[pixel];
+        if (!found.is_hit() && found.flags == 0) {
+            continue;
+        }
+        found.value = frame.value[pixel];
+        found.depth = frame.depth[pixel];
+        std::memcpy(found.normal.data(), &frame.normal[3 * pixel], sizeof found.normal);
+        std::memcpy(found.color.data(), &frame.color[4 * pixel], sizeof found.color);
+        found.is_own = found.is_hit() && is_own(found.element) ? 1 : 0;
+        picture.pixels.push_back(found);
+    }
+    picture.facts = std::move(frame);
+    for (auto* const numbers : {&picture.facts.color, &picture.facts.value, &picture.facts.depth, &picture.facts.normal}) {
+        *numbers = {};
+    }
+    picture.facts.element = {};
+    picture.facts.flags = {};
+    return picture;
+}
+
+void pack(const PartPicture& picture, std::vector<std::byte>& bytes) {
+    const Frame& frame = picture.facts;
+    put(bytes, Facts{picture.pixels.size(), frame.runs.size(), frame.counts, frame.color_error, frame.render_milliseconds,
+                     frame.device_milliseconds, frame.submissions, frame.host_waits, picture.part, frame.width, frame.height,
+                     static_cast<std::uint32_t>(frame.is_met.size()), static_cast<std::uint32_t>(frame.special_values.size())});
+    const std::vector<std::uint8_t> is_met(frame.is_met.begin(), frame.is_met.end());
+    put(bytes, std::span(is_met));
+    put(bytes, std::span(frame.special_values));
+    put(bytes, std::span(picture.pixels));
+    put(bytes, std::span(frame.runs));
+}
+
+std::vector<PartPicture> unpacked(std::span<const std::byte> bytes) {
+    std::vector<PartPicture> pictures;
+    while (!bytes.empty()) {
+        const auto facts = take<Facts>(bytes);
+        PartPicture& picture = pictures.emplace_back();
+        picture.part = facts.part;
+        picture.facts.width = facts.width;
+        picture.facts.height = facts.height;
+        picture.facts.counts = facts.counts;
+        picture.facts.render_milliseconds = facts.render_milliseconds;
+        picture.facts.device_milliseconds = facts.device_milliseconds;
+        picture.facts.submissions = facts.submissions;
+        picture.facts.host_waits = facts.host_waits;
+        const auto is_met = take_items<std::uint8_t>(bytes, facts.n_surfaces);
+        picture.facts.is_met.assign(is_met.begin(), is_met.end());
+        picture.facts.special_values = take_items<SpecialValues>(bytes, facts.n_special);
+        picture.pixels = take_items<PartPixel>(bytes, facts.n_pixels);
+        picture.facts.runs = take_items<LightRun>(bytes, facts.n_runs);
+        picture.facts.color_error = facts.color_error;
+    }
+    return pictures;
+}
+
+} // namespace elvis

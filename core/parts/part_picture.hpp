@@ -1,0 +1,48 @@
+/**
+ * @file part_picture.hpp
+ * What one part of a volume gives to a picture: what it shows of each pixel where it shows anything.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/** Of a pixel in which the part's rays meet something, or leave something open. */
+struct PartPixel {
+    std::uint32_t pixel = 0;
+    std::uint32_t flags = 0;
+    /** The element's number; -1 where nothing is met. */
+    std::int64_t element = -1;
+    double value = 0, depth = 0;
+    std::array<double, 3> normal{};
+    std::array<double, 4> color{};
+    /** Whether the element is the part's own, not one of its surroundings. */
+    std::uint64_t is_own = 0;
+
+    bool is_hit() const { return element >= 0; }
+};
+
+struct PartPicture {
+    std::uint32_t part = 0;
+    /** Ascending. */
+    std::vector<PartPixel> pixels;
+    /** All of the part's frame that is not of pixels: counts, times, what is met, light of the volume. */
+    Frame facts;
+};
+
+/** `is_own`: whether the element of that number is the part's. */
+PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own);
+
+/** To be sent, one after the other; and back. Between processes of one program on machines of one kind. */
+void pack(const PartPicture& picture, std::vector<std::byte>& bytes);
+std::vector<PartPicture> unpacked(std::span<const std::byte> bytes);
+
+} // namespace elvis

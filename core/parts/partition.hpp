@@ -1,0 +1,44 @@
+/**
+ * @file partition.hpp
+ * Which elements of a volume make up its parts.
+ */
+#pragma once
+
+#include <core/plugin_host/runtime_volume.hpp>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/** Consecutive things, from the first on and before the end. */
+struct Span {
+    std::uint64_t first = 0, end = 0;
+
+    std::uint64_t size() const { return end - first; }
+    bool holds(std::uint64_t one) const { return one >= first && one < end; }
+};
+
+/**
+ * One of `n_shares` shares of n things, as equal as can be, in their order. Parts are shares of the elements, counted class by
+ * class, so that they are the data's own affair; processes own shares of the parts.
+ */
+inline Span share(std::uint64_t n, std::uint32_t n_shares, std::uint32_t index) {
+    return {n * index / n_shares, n * (index + 1) / n_shares};
+}
+
+/**
+ * The elements of a part and those around it, ascending: all whose box comes within `tolerance` of the box of an element of
+ * the part. `boxes`: six numbers for each element of the volume.
+ */
+std::vector<std::uint64_t> with_surroundings(std::span<const double> boxes, const Span& part, double tolerance);
+
+/** Of all these boxes: six numbers each. */
+std::array<double, 6> box_around(std::span<const double> boxes);
+
+/** The same elements by class, counted in each class. */
+std::vector<std::vector<std::uint64_t>> by_class(const RuntimeVolume& volume, std::span<const std::uint64_t> elements);
+
+} // namespace elvis

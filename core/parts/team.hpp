@@ -1,0 +1,49 @@
+/**
+ * @file team.hpp
+ * The processes that draw one picture together.
+ */
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+/** All members call the same functions in the same order; one thread of each. */
+class Team {
+public:
+    virtual ~Team() = default;
+
+    virtual std::uint32_t rank() const = 0;
+    virtual std::uint32_t size() const = 0;
+    /** Each number becomes the smallest that a member has in its place; the same on all. No NaN. */
+    virtual void minimum(std::span<double> numbers) = 0;
+    /** The members' numbers one after the other, in the order of ranks; on all. */
+    virtual std::vector<double> joined(std::vector<double> numbers) = 0;
+    /** The first's numbers; on all. */
+    virtual std::vector<double> of_first(std::vector<double> numbers) = 0;
+    /** What each member has, in the order of ranks; on rank 0 alone, nothing on others. */
+    virtual std::vector<std::vector<std::byte>> gathered(std::vector<std::byte> bytes) = 0;
+
+    bool is_first() const { return rank() == 0; }
+};
+
+/** One process by itself. */
+class OneProcess final : public Team {
+public:
+    std::uint32_t rank() const override { return 0; }
+    std::uint32_t size() const override { return 1; }
+    void minimum(std::span<double>) override {}
+    std::vector<double> joined(std::vector<double> numbers) override { return numbers; }
+    std::vector<double> of_first(std::vector<double> numbers) override { return numbers; }
+    std::vector<std::vector<std::byte>> gathered(std::vector<std::byte> bytes) override {
+        std::vector<std::vector<std::byte>> all;
+        all.push_back(std::move(bytes));
+        return all;
+    }
+};
+
+} // namespace elvis

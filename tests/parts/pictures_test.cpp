@@ -1,0 +1,174 @@
+// Pictures in parts against those of the whole volume.
+
+#include "parts_fixture.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+using namespace elvis;
+using namespace elvis::test;
+
+namespace {
+
+/** Of a colour channel; what a picture may be off anyway. */
+constexpr double tolerance = 1e-3;
+constexpr std::uint32_t doubt = pixel_flag::undecided | pixel_flag::isosurface_undecided | pixel_flag::contour_undecided |
+                                pixel_flag::mesh_line_undecided | pixel_flag::volume_tolerance;
+/** Bits that are the mathematical mask. */
+constexpr std::uint32_t mask = pixel_flag::contour | pixel_flag::mesh_line | pixel_flag::isosurface;
+
+struct Differences {
+    double color = 0, value = 0, depth = 0, normal = 0;
+    /** Pixels whose colour is off, that show another element, another mask: all, and such as neither picture flags. */
+    std::size_t n_color = 0, n_silent = 0, n_element = 0, n_mask = 0, n_silent_mask = 0;
+    std::size_t n_flagged = 0, n_flagged_whole = 0, n_hit = 0;
+};
+
+void widen(double& largest, double a, double b) {
+    if (std::isfinite(a) && std::isfinite(b)) {
+        largest = std::max(largest, std::abs(a - b));
+    }
+}
+
+Differences between(const Frame& whole, const Frame& parts) {
+    Differences found;
+    for (std::size_t pixel = 0; pixel < whole.flags.size(); ++pixel) {
+        const bool is_flagged = ((whole.flags[pixel] | parts.flags[pixel]) & doubt) != 0;
+        found.n_flagged += (parts.flags[pixel] & doubt) != 0 ? 1 : 0;
+        found.n_flagged_whole += (whole.flags[pixel] & doubt) != 0 ? 1 : 0;
+        found.n_hit += whole.element[pixel] >= 0 ? 1 : 0;
+        double color = 0;
+        for (std::size_t channel = 0; channel < 4; ++channel) {
+            widen(color, whole.color[4 * pixel + channel], parts.color[4 * pixel + channel]);
+        }
+        const bool is_met_alike = (whole.element[pixel] >= 0) == (parts.element[pixel] >= 0);
+        const bool is_off = color > tolerance || !is_met_alike;
+        found.n_color += is_off ? 1 : 0;
+        found.n_silent += is_off && !is_flagged ? 1 : 0;
+        found.n_element += whole.element[pixel] != parts.element[pixel] ? 1 : 0;
+        const bool is_masked_otherwise = ((whole.flags[pixel] ^ parts.flags[pixel]) & mask) != 0;
+        found.n_mask += is_masked_otherwise ? 1 : 0;
+        found.n_silent_mask += is_masked_otherwise && !is_flagged ? 1 : 0;
+        if (!is_flagged) {
+            widen(found.color, color, 0);
+            widen(found.value, whole.value[pixel], parts.value[pixel]);
+            widen(found.depth, whole.depth[pixel], parts.depth[pixel]);
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                widen(found.normal, whole.normal[3 * pixel + axis], parts.normal[3 * pixel + axis]);
+            }
+        }
+    }
+    return found;
+}
+
+struct Picture {
+    const char* name;
+    const char* keys;
+};
+
+void compare(Stage& stage, const Picture& picture, std::uint32_t n_parts) {
+    const Scene scene = stage.scene(picture.keys);
+    const Frame whole = stage.as_whole(scene);
+    const Differences found = between(whole, stage.in_parts(scene, n_parts));
+    CHECK(whole.counts.hit_pixels + whole.counts.volume_pixels > 1000);
+    std::printf("%-34s %u parts: largest difference of colour %.1e, value %.1e, depth %.1e, normal %.1e; of %zu pixels "
+                "colour is off in %zu (%zu unflagged), element in %zu, mask in %zu (%zu unflagged); flagged %zu, in the whole "
+                "%zu\n",
+                picture.name, n_parts, found.color, found.value, found.depth, found.normal, found.n_hit, found.n_color,
+                found.n_silent, found.n_element, found.n_mask, found.n_silent_mask, found.n_flagged, found.n_flagged_whole);
+    INFO(picture.name << ", " << n_parts << " parts");
+    CHECK(found.n_silent == 0);
+    CHECK(found.n_silent_mask == 0);
+    CHECK(found.color <= tolerance);
+    // What parts add to doubt is a matter of few pixels, near borders between parts.
+    CHECK(found.n_flagged <= found.n_flagged_whole + whole.flags.size() / 20);
+}
+
+constexpr Picture surfaces[] = {
+    {"oblique plane", R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}])"},
+    {"boundary", R"("surfaces": [{"type": "boundary"}])"},
+    {"isosurface", R"("surfaces": [{"type": "isosurface", "values": [0.3]}], "lighting": "default")"},
+    {"all, clipped",
+     R"("surfaces": [{"type": "plane", "plane": [1, 0, 0, 0.1]}, {"type": "isosurface", "values": [0.3]},
+                     {"type": "boundary", "clip": [[-1, 0, 0, -0.1]]}])"},
+};
+
+} // namespace
+
+TEST_CASE("Surfaces in parts are those of the whole: hexahedra") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    for (const Picture& picture : surfaces) {
+        compare(stage, picture, 3);
+    }
+    compare(stage, surfaces[3], 7);
+}
+
+TEST_CASE("Surfaces in parts are those of the whole: a mixed mesh") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "shape": "mixed", "elements": [4, 2, 2], "order": 2, "field": "waves"})");
+    compare(stage, surfaces[3], 3);
+}
+
+TEST_CASE("A plane in faces between parts shows the viewer's side") {
+    // Layers of elements, each of which is a part, and a field that jumps between elements.
+    Stage stage(R"({"generator": 1, "mesh": "box", "elements": [4, 4, 4], "field": "element"})");
+    compare(stage, {"plane in faces between parts", R"("surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])"}, 4);
+    compare(
+        stage,
+        {"the same from below",
+         R"("surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}], "camera": {"eye": [0.3, 0.2, -4], "look_at": [0, 0, 0]})"},
+        4);
+    // Where the field is continuous nothing is open, as in the whole.
+    Stage smooth(R"({"generator": 1, "mesh": "box", "elements": [4, 4, 4], "field": "waves", "order": 2})");
+    const Scene scene = smooth.scene(R"("surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])");
+    const Frame whole = smooth.as_whole(scene), parts = smooth.in_parts(scene, 4);
+    CHECK(parts.counts.undecided_pixels == whole.counts.undecided_pixels);
+    CHECK(parts.element == whole.element);
+    CHECK(parts.color == whole.color);
+}
+
+TEST_CASE("Lines in parts are those of the whole, or flagged") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": 4, "order": 3, "field": "waves"})");
+    compare(
+        stage,
+        {"contours and mesh lines",
+         R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}], "contours": {"values": [-0.5, 0, 0.5]}, "mesh_lines": {})"},
+        4);
+    compare(stage,
+            {"wide ones on the boundary",
+             R"("surfaces": [{"type": "boundary"}], "contours": {"values": [0], "width": 5}, "mesh_lines": {"width": 3})"},
+            4);
+}
+
+TEST_CASE("Parts without elements change nothing") {
+    Stage stage(R"({"generator": 1, "mesh": "box", "elements": 2, "field": "sphere"})");
+    const Scene scene = stage.scene(R"("surfaces": [{"type": "boundary"}])");
+    const Frame eight = stage.in_parts(scene, 8), twenty = stage.in_parts(scene, 20);
+    CHECK(eight.color == twenty.color);
+    CHECK(eight.element == twenty.element);
+    CHECK(eight.flags == twenty.flags);
+}
+
+TEST_CASE("Volume rendering in parts is that of the whole") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [4, 3, 3], "order": 3, "field": "waves"})");
+    constexpr const char* density = R"("volume_rendering": {"density": [[-2, 0], [-0.5, 0.2], [0.5, 0.6], [2, 3]]})";
+    compare(stage, {"the volume itself", density}, 4);
+    const std::string before = std::string(density) + R"(, "surfaces": [{"type": "plane", "plane": [1, 0.2, 0, 0.1]}])";
+    compare(stage, {"in front of a plane", before.c_str()}, 4);
+    const std::string within = std::string(density) + R"(, "camera": {"eye": [0.1, 0.05, 0.02], "look_at": [1, 0.2, 0.3]})";
+    compare(stage, {"with the eye inside", within.c_str()}, 3);
+}
+
+TEST_CASE("Camera, ranges and expressions in parts are those of the whole") {
+    Stage stage(R"({"generator": 1, "mesh": "ball", "elements": 2, "layers": 2, "order": 4, "field": "sinc"})");
+    // Nothing is said but the field: all else is found out by the parts together.
+    compare(stage, {"default view of an expression", R"~("field": "x * sinc + d(sinc, y)")~"}, 4);
+    compare(stage, {"default view of a field", R"("field": "sinc")"}, 4);
+}
+
+TEST_CASE("Parts in double precision") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": 3, "order": 2, "field": "waves"})", Precision::float64);
+    compare(stage, surfaces[0], 3);
+}
