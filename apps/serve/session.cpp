@@ -1,5 +1,7 @@
 #include "session.hpp"
 
+#include <core/base/memory.hpp>
+
 #include <algorithm>
 #include <chrono>
 
@@ -14,6 +16,10 @@ constexpr double slow_milliseconds = 250, quick_milliseconds = 80;
 constexpr std::uint32_t most_shrink = 8;
 /** An exact picture makes way for other sessions so often, then no more: else it might never be finished. */
 constexpr int most_yields = 5;
+
+constexpr std::chrono::milliseconds short_wait = FrameSchedule::rest / 4;
+/** Without work for so long, the thread finds the time to give memory back: of large pictures it is much. */
+constexpr int waits_before_tidying = 10;
 
 const char* name_of(FrameStage stage) {
     return stage == FrameStage::moving ? "moving" : stage == FrameStage::full ? "full" : "exact";
@@ -126,11 +132,18 @@ bool Session::has_work(Clock::time_point now) const {
 
 void Session::run(const std::stop_token& stop) {
     std::unique_lock lock(m_mutex);
+    int n_waits = 0;
     while (!stop.stop_requested()) {
         // Movements end without a message, too.
-        if (!m_changed.wait_for(lock, stop, FrameSchedule::rest / 4, [this] { return has_work(Clock::now()); })) {
+        if (!m_changed.wait_for(lock, stop, short_wait, [this] { return has_work(Clock::now()); })) {
+            if (++n_waits == waits_before_tidying) {
+                lock.unlock();
+                give_back_free_memory();
+                lock.lock();
+            }
             continue;
         }
+        n_waits = 0;
         m_cancelled = false;
         if (!m_tasks.empty()) {
             do_task(lock);

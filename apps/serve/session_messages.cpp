@@ -20,6 +20,8 @@ using nlohmann::json;
 /** Of pictures on the page, and of those that are saved: their memory is the server's. */
 constexpr std::uint32_t most_pixels_across = 8192;
 constexpr std::uint64_t most_saved_pixels = 64u << 20u;
+/** With all samples of a pixel: full HD with 8 by 8. */
+constexpr std::uint64_t most_samples = 128u << 20u;
 constexpr std::size_t most_tasks = 16;
 
 double number(const json& message, const char* key, double least, double most) {
@@ -36,6 +38,12 @@ double pixels(const json& message, const char* key) { return number(message, key
 std::array<std::uint32_t, 2> size_of(const json& message) {
     return {static_cast<std::uint32_t>(number(message, "width", 1, most_pixels_across)),
             static_cast<std::uint32_t>(number(message, "height", 1, most_pixels_across))};
+}
+
+void check_samples(const Scene& scene, const std::array<std::uint32_t, 2>& size) {
+    if (std::uint64_t{size[0]} * size[1] * scene.samples * scene.samples > most_samples) {
+        throw Error("the picture would have too many samples: 'image.samples' times its size");
+    }
 }
 
 PictureSize picture_size(const Scene& scene) {
@@ -120,6 +128,7 @@ void Session::receive(std::string_view text) {
 }
 
 Session::Json Session::resize(const Json& message) {
+    check_samples(m_model.scene(), size_of(message));
     if (m_model.scene().size != size_of(message)) {
         m_model.set_size(size_of(message));
         changed(false);
@@ -216,6 +225,7 @@ void Session::edit(const std::string& what, const Json& scene) {
     if (wanted.size[0] > most_pixels_across || wanted.size[1] > most_pixels_across) {
         throw Error("'image.size' is larger than the page can be");
     }
+    check_samples(wanted, wanted.size);
     if (wanted.time_step >= m_served->facts.times.size() && wanted.time_step > 0) {
         throw Error("the volume has " + std::to_string(m_served->facts.times.size()) + " time steps");
     }
@@ -380,6 +390,7 @@ Session::Json Session::save_picture(const Json& message) {
     if (std::uint64_t{size[0]} * size[1] > most_saved_pixels) {
         throw Error("the picture would have more than 64 million pixels");
     }
+    check_samples(m_model.scene(), size);
     post(message, "drawing a picture to save", [served = m_served, size](const Scene& scene, const task& watch) {
         Scene resized = scene;
         // The shift is in pixels: a larger picture has what is looked at in the same place.

@@ -82,14 +82,15 @@ class Browser:
     def type(self, selector, keys):
         self.call("POST", f"/element/{self.find(selector)}/value", {"text": keys})
 
-    def drag(self, start, way, steps=12, button=0):
-        """With the mouse, from a place of the page."""
+    def drag(self, start, way, steps=12, pointer="mouse"):
+        """With the mouse or a finger ("touch"), from a place of the page."""
+        button = 0
         moves = [{"type": "pointerMove", "duration": 0, "x": start[0], "y": start[1]}, {"type": "pointerDown", "button": button}]
         for i in range(1, steps + 1):
             moves.append({"type": "pointerMove", "duration": 30, "x": round(start[0] + way[0] * i / steps),
                           "y": round(start[1] + way[1] * i / steps)})
         moves.append({"type": "pointerUp", "button": button})
-        self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": moves}]})
+        self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": pointer, "parameters": {"pointerType": pointer}, "actions": moves}]})
 
     def press(self, *keys):
         actions = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]

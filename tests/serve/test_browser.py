@@ -57,6 +57,10 @@ class BrowserTest(unittest.TestCase):
         self.assertNotEqual(page.run(f"return {camera}"), before)
         self.assertGreater(page.run("return elvis.picture.times.length"), n_frames + 1)
 
+        revision = page.run("return elvis.frame().revision")
+        page.drag((300, 350), (-40, 40), pointer="touch")
+        page.wait(f"{SETTLED} && elvis.frame().revision > {revision}")
+
         n = self.n_items()
         page.run("document.getElementById('new-item').value = 'Cut plane'")
         page.click("#add")
@@ -65,10 +69,17 @@ class BrowserTest(unittest.TestCase):
         page.wait(SETTLED)
         self.shot("plane.png")
 
-        page.drag((350, 350), (0, 0), steps=1)
+        middle = page.run("""const box = document.getElementById('view').getBoundingClientRect();
+                             return [Math.round(box.left + box.width / 2), Math.round(box.top + box.height / 2)]""")
+        page.drag(middle, (0, 0), steps=1)
         page.wait("document.querySelector('#picked table')")
         self.assertIn("xi", page.run("return document.getElementById('picked').innerText"))
         self.shot("picked.png")
+        page.click("#panel-toggle")
+        page.wait(f"{SETTLED} && elvis.frame().size[0] === innerWidth && elvis.frame().size[1] === innerHeight")
+        self.shot("full.png")
+        page.click("#panel-toggle")
+        page.wait(f"{SETTLED} && elvis.frame().size[0] < innerWidth")
 
         page.click("#undo")
         page.click("#undo")
@@ -105,6 +116,15 @@ class BrowserTest(unittest.TestCase):
         self.assertEqual(page.run("""return [...document.querySelectorAll('button, input, select')].filter(
             (e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.closest('label'))).map((e) => e.outerHTML)"""), [])
         self.assertEqual(page.complaints(), [])
+
+    def test_dark_and_small(self):
+        small = browser.Browser(self.folder, size=(600, 900), dark=True)
+        self.addCleanup(small.close)
+        small.open(self.server.url)
+        small.wait(SETTLED)
+        small.screenshot(os.path.join(self.shots, "dark.png"))
+        self.assertTrue(small.run("return matchMedia('(prefers-color-scheme: dark)').matches"))
+        self.assertGreater(small.run("return document.getElementById('view').clientHeight"), 100)
 
 
 if __name__ == "__main__":
