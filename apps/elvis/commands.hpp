@@ -20,6 +20,7 @@ void add_completion(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_devices(CLI::App& app);
 void add_export(CLI::App& app);
+void add_extract(CLI::App& app);
 void add_extrema(CLI::App& app);
 void add_help(CLI::App& app);
 void add_info(CLI::App& app);
@@ -32,6 +33,7 @@ void add_probe(CLI::App& app);
 /** `team`: the processes that draw parts of a volume together; null: this one draws by itself. It must outlive the command. */
 void add_render(CLI::App& app, Team* team = nullptr);
 void add_sample(CLI::App& app);
+void add_serve(CLI::App& app);
 void add_version(CLI::App& app);
 void add_view(CLI::App& app);
 

@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
     elvis::commands::add_convert(app);
     elvis::commands::add_devices(app);
     elvis::commands::add_export(app);
+    elvis::commands::add_extract(app);
     elvis::commands::add_extrema(app);
     elvis::commands::add_help(app);
     elvis::commands::add_info(app);
@@ -55,6 +56,7 @@ int run(int argc, char** argv) {
     elvis::commands::add_probe(app);
     elvis::commands::add_render(app);
     elvis::commands::add_sample(app);
+    elvis::commands::add_serve(app);
     elvis::commands::add_version(app);
     elvis::commands::add_view(app);
 

@@ -5,12 +5,17 @@
 #include "arrays.hpp"
 #include "running.hpp"
 
+#include <elvis/extract.hpp>
+
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
 
 namespace py = pybind11;
 
@@ -212,6 +217,67 @@ public:
         std::optional<data> displaced;
         run(progress, [&](const task& watch) { displaced.emplace(m_data.warp(wanted, watch)); });
         return std::make_unique<Volume>(m_context, std::move(*displaced));
+    }
+    /** What elvis_data_extract finds, by the names of the package's Mesh. */
+    py::dict extract(elvis_domain domain, const std::vector<std::string>& groups, const std::array<double, 4>& plane,
+                     const std::optional<std::string>& level_field, double isovalue,
+                     const std::optional<std::string>& contour_field, const std::vector<double>& contours,
+                     const std::vector<std::string>& fields, double tolerance, std::uint32_t time_step,
+                     const py::object& progress) const {
+        std::vector<elvis_string> group_names, names;
+        for (const std::string& group : groups) {
+            group_names.push_back(group.c_str());
+        }
+        for (const std::string& name : fields) {
+            names.push_back(name.c_str());
+        }
+        auto wanted = detail::sized<elvis_extraction>();
+        wanted.domain = domain;
+        wanted.groups = group_names.data();
+        wanted.n_groups = static_cast<std::uint32_t>(group_names.size());
+        wanted.time_step = time_step;
+        std::copy(plane.begin(), plane.end(), wanted.plane);
+        wanted.level_field = level_field ? level_field->c_str() : nullptr;
+        wanted.isovalue = isovalue;
+        wanted.contour_field = contour_field ? contour_field->c_str() : nullptr;
+        wanted.contours = contours.data();
+        wanted.n_contours = static_cast<std::uint32_t>(contours.size());
+        wanted.fields = names.data();
+        wanted.n_fields = static_cast<std::uint32_t>(names.size());
+        wanted.tolerance = tolerance;
+        extracted found;
+        run(progress, [&](const task& watch) { found = elvis::extract(m_context, m_data, wanted, watch); });
+        const elvis_mesh_info& info = found.info;
+        const auto n = static_cast<py::ssize_t>(info.n_vertices), m = static_cast<py::ssize_t>(info.n_triangles);
+        const auto list = [](const auto& numbers) {
+            using Number = typename std::decay_t<decltype(numbers)>::value_type;
+            return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+        };
+        py::dict result;
+        result["positions"] = py::array_t<double>({n, py::ssize_t{3}}, found.positions.data());
+        result["normals"] = py::array_t<double>({n, py::ssize_t{3}}, found.normals.data());
+        result["elements"] = list(found.elements);
+        result["xi"] = py::array_t<double>({n, py::ssize_t{3}}, found.xi.data());
+        result["values"] = py::array_t<double>({n, static_cast<py::ssize_t>(info.n_values)}, found.values.data());
+        result["triangles"] = py::array_t<std::uint32_t>({m, py::ssize_t{3}}, found.triangles.data());
+        result["triangle_elements"] = list(found.triangle_elements);
+        result["line_first"] = list(found.line_first);
+        result["line_vertices"] = list(found.line_vertices);
+        result["line_values"] = list(found.line_values);
+        result["measure"] = info.measure;
+        result["volume"] = info.volume;
+        result["mesh_to_surface"] = info.mesh_to_surface;
+        result["surface_to_mesh"] = info.surface_to_mesh;
+        result["tolerance"] = info.tolerance;
+        result["euler_number"] = info.euler_number;
+        result["rim_edges"] = info.n_rim_edges;
+        result["inner_edges"] = info.n_inner_edges;
+        result["branching_edges"] = info.n_branching_edges;
+        result["open_ends"] = info.n_open_ends;
+        result["certified"] = info.is_certified != 0;
+        result["sampled_elements"] = info.n_sampled_elements;
+        result["undecided"] = info.n_undecided;
+        return result;
     }
     /** Of each line begin, end, and dictionaries' arrays of its points: what elvis_data_trace finds. */
     py::dict trace(const std::string& field, const Doubles& seeds, std::uint32_t direction,
@@ -460,6 +526,9 @@ PYBIND11_MODULE(_elvis, module) {
              py::arg("level_field"), py::arg("isovalue"), py::arg("flux"), py::arg("time_step"), py::arg("tolerance"),
              py::arg("progress"))
         .def("warp", &Volume::warp, py::arg("field"), py::arg("factor"), py::arg("imaginary"), py::arg("phase"),
+             py::arg("time_step"), py::arg("progress"))
+        .def("extract", &Volume::extract, py::arg("domain"), py::arg("groups"), py::arg("plane"), py::arg("level_field"),
+             py::arg("isovalue"), py::arg("contour_field"), py::arg("contours"), py::arg("fields"), py::arg("tolerance"),
              py::arg("time_step"), py::arg("progress"))
         .def("trace", &Volume::trace, py::arg("field"), py::arg("seeds"), py::arg("direction"), py::arg("fields"),
              py::arg("tolerance"), py::arg("length"), py::arg("time_step"), py::arg("progress"))

@@ -91,6 +91,24 @@ class Values(WithVolume):
             self.assertEqual(line.values["velocity"].shape, (len(x), 3))
         self.assertRaises(elvis.Error, lambda: self.volume.streamlines("p", [0, 0, 0]))
 
+    def test_a_mesh_lies_on_the_surface(self):
+        mesh = self.volume.extract("p", isosurface=0.4, values=["p", "velocity"], tolerance=3e-3)
+        x, y, z = mesh.positions.T
+        np.testing.assert_allclose(x * x * y + z, 0.4, atol=1e-11)
+        np.testing.assert_allclose(mesh.values["p"], 0.4, atol=1e-11)
+        self.assertEqual(mesh.values["velocity"].shape, (len(x), 3))
+        np.testing.assert_allclose(np.linalg.norm(mesh.normals, axis=1), 1)
+        a, b, c = (mesh.positions[mesh.triangles[:, corner]] for corner in range(3))
+        self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2, mesh.measure, delta=1e-12)
+        self.assertLess(max(mesh.mesh_to_surface, mesh.surface_to_mesh), mesh.tolerance)
+        self.assertEqual((mesh.inner_edges, mesh.branching_edges, mesh.lines), (0, 0, []))
+        lines = self.volume.extract("x", plane=[0, 0, 1, -0.1], contours=[0.5])
+        self.assertEqual([lines.line_values[0], len(lines.triangles)], [0.5, 0])
+        np.testing.assert_allclose(lines.positions[lines.lines[0]][:, [0, 2]], [[0.5, 0.1]] * len(lines.lines[0]), atol=1e-12)
+        self.assertGreater(self.volume.extract(boundary=True, tolerance=1e-2).measure, 20)
+        self.assertRaises(ValueError, lambda: self.volume.extract(isosurface=0.4))
+        self.assertRaises(elvis.Error, lambda: self.volume.extract("pressure", isosurface=0.4))
+
     def test_a_warp_displaces_points_and_takes_values_along(self):
         point = np.array([0.3, -0.2, 0.4])
         before = self.volume.probe(point, ["velocity", "p"])

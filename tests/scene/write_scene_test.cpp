@@ -156,6 +156,18 @@ TEST_CASE("A scene that was written reads as it was") {
     }
 }
 
+TEST_CASE("Lines of which nothing is said are written") {
+    const json lines = {{"contours", json::object()}, {"mesh_lines", json::object()}};
+    json document = lines;
+    document["version"] = 1;
+    document["surfaces"] = json::array({lines});
+    document["surfaces"][0].update({{"type", "boundary"}, {"contours", {{"count", 5}}}});
+    const json written = json::parse(scene_json(scene_of(document, "scene.json"), "scene.json").dump());
+    CHECK(written["contours"] == lines["contours"]);
+    CHECK(written["mesh_lines"] == lines["mesh_lines"]);
+    CHECK(written["surfaces"] == document["surfaces"]);
+}
+
 TEST_CASE("Every key of the schema is written") {
     const Folder folder;
     std::set<std::string> written, allowed;

@@ -89,6 +89,7 @@ TEST_CASE("Threads may compile at the same time") {
 
 TEST_CASE("An error names file and line") {
     const CacheFolder cache;
-    const std::string bad = std::string(text) + "#line 7 \"plugin/heat.glsl\"\nfloat f() { return missing; }\n";
+    std::string bad(text);
+    bad += "#line 7 \"plugin/heat.glsl\"\nfloat f() { return missing; }\n";
     REQUIRE_THROWS_WITH(compile_shader(bad, "test"), Catch::Contains("plugin/heat.glsl:7:") && Catch::Contains("missing"));
 }

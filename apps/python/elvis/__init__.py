@@ -6,7 +6,7 @@
     ball.scene(cut_planes=[[0, 0, 1, 0]], isosurfaces={"p": [0.5]}).render(800, 600).save("ball.png")
 """
 
-from ._answers import Break, Integral, Side, Streamline
+from ._answers import Break, Integral, Mesh, Side, Streamline
 from ._arrays import Elements, Space, from_arrays
 from ._elvis import Error
 from ._frames import Frames
@@ -18,5 +18,5 @@ from ._volume import Field, Range, Volume, open
 from .scene_objects import *  # noqa: F403: the objects of scenes, by their names in the scene file.
 from .scene_objects import __all__ as _objects
 
-__all__ = ["Break", "Elements", "Error", "Field", "Frames", "Integral", "Picture", "Range", "Samples", "Scene", "Side", "Space", "Streamline", "Volume",
+__all__ = ["Break", "Elements", "Error", "Field", "Frames", "Integral", "Mesh", "Picture", "Range", "Samples", "Scene", "Side", "Space", "Streamline", "Volume",
            "context", "convert", "devices", "from_arrays", "open", "plugins", "set_up", *_objects]

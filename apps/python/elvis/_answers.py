@@ -1,4 +1,4 @@
-"""What is asked of a volume without a picture: integrals, what a line meets, and streamlines."""
+"""What is asked of a volume without a picture: integrals, what a line meets, streamlines, and meshes of surfaces."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -106,3 +106,62 @@ def breaks_of(places: list[dict], fields: Sequence[str], n_values: Sequence[int]
             first += n
         return Side(one["element"], np.array(one["xi"]), values)
     return [Break(place["distance"], np.array(place["position"]), side(place["before"]), side(place["after"])) for place in places]
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A surface as triangles, or contours as lines, and how near to the true ones they are."""
+
+    positions: np.ndarray
+    """(n, 3): vertices, which lie on the true surface."""
+    normals: np.ndarray
+    """(n, 3), of length 1: to where the isosurface's field is larger, along the plane's (a, b, c), or out of the volume."""
+    elements: np.ndarray
+    """(n,): an element that each vertex lies in."""
+    xi: np.ndarray
+    """(n, 3): reference coordinates there."""
+    values: dict[str, np.ndarray]
+    """Of each field asked for: (n,), or (n, components)."""
+    triangles: np.ndarray
+    """(m, 3): vertices, anticlockwise from where normals point."""
+    triangle_elements: np.ndarray
+    """(m,)"""
+    lines: list[np.ndarray]
+    """Of each contour its vertices; a closed one has its first again as its last."""
+    line_values: np.ndarray
+    """Which of the contours' values each line is of."""
+    measure: float
+    """Area, or length of lines."""
+    volume: float
+    """What a mesh without open edges encloses."""
+    mesh_to_surface: float
+    """The largest distance seen from the mesh to the surface, in world units; the other way: `surface_to_mesh`."""
+    surface_to_mesh: float
+    tolerance: float
+    """What was asked for, in world units."""
+    euler_number: int
+    rim_edges: int
+    """Edges where the surface ends in the outer boundary."""
+    inner_edges: int
+    """Open edges inside of the volume, where the field jumps or elements do not meet face to face."""
+    branching_edges: int
+    """Edges of more than two triangles."""
+    open_ends: int
+    """Ends of lines that are not where the surface ends."""
+    certified: bool
+    """Bounds prove that no part of the surface is missing that reaches farther than the tolerance from where it is extreme."""
+    sampled_elements: int
+    """Elements for which samples had to stand for bounds."""
+    undecided: int
+    """Places as small as the tolerance that stay undecided."""
+
+
+def mesh_of(found: dict, fields: Sequence[str], n_values: Sequence[int]) -> Mesh:
+    """From what the library gives."""
+    numbers, values, column = found.pop("values"), {}, 0
+    for name, n in zip(fields, n_values):
+        values[name] = numbers[:, column] if n == 1 else numbers[:, column:column + n]
+        column += n
+    first, vertices = found.pop("line_first"), found.pop("line_vertices")
+    lines = [vertices[int(begin):int(end)] for begin, end in zip(first, first[1:])]
+    return Mesh(values=values, lines=lines, **found)

@@ -34,6 +34,10 @@ class Volume:
     def warp(
         self, field: str, factor: float, imaginary: str | None, phase: float, time_step: int, progress: Progress
     ) -> Volume: ...
+    def extract(
+        self, domain: int, groups: list[str], plane: list[float], level_field: str | None, isovalue: float, contour_field: str | None,
+        contours: list[float], fields: list[str], tolerance: float, time_step: int, progress: Progress
+    ) -> dict[str, Any]: ...
     def trace(
         self, field: str, seeds: NDArray[np.float64], direction: int, fields: list[str], tolerance: float, length: float,
         time_step: int, progress: Progress

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _elvis
-from ._answers import Break, Integral, Streamline, breaks_of, streamlines_of
+from ._answers import Break, Integral, Mesh, Streamline, breaks_of, mesh_of, streamlines_of
 from ._frames import Frames
 from ._library import context
 from ._picture import Picture
@@ -128,6 +128,32 @@ class Volume:
         with progress_for(progress) as report:
             return Integral(**self._handle.integrate(domain, field, groups, [0.0] * 4 if plane is None else list(plane), level_field,
                                                      0.0 if isosurface is None else isosurface, flux, time_step, tolerance, report))
+
+    def extract(self, field: str | None = None, *, isosurface: float | None = None, isosurface_field: str | None = None,
+                plane: Sequence[float] | None = None, boundary: bool | Sequence[str] = False, contours: Sequence[float] = (),
+                values: str | Sequence[str] = (), tolerance: float = 1e-3, time_step: int = 0, progress: Progress = True) -> Mesh:
+        """A mesh of one of isosurface, plane and boundary, or of the contours on it.
+
+        field: of the isosurface and of contours, a name or an expression. isosurface: its value, of `isosurface_field` if that is given.
+        plane: a, b, c, d of ax+by+cz+d=0. boundary: True, or names of groups; it is what is taken where nothing else is given. contours:
+        values of `field`, whose lines on the surface are wanted in place of it. values: fields and expressions whose values at the
+        vertices are wanted. tolerance: how far mesh and surface may be from each other, as a share of the diagonal of the bounds.
+        """
+        if (boundary is not False) + (plane is not None) + (isosurface is not None) > 1:
+            raise ValueError("one of isosurface, plane and boundary")
+        level_field = isosurface_field if isosurface_field is not None else field
+        if isosurface is not None and level_field is None:
+            raise ValueError("isosurface: of which field?")
+        if len(contours) > 0 and field is None:
+            raise ValueError("contours: of which field?")
+        domain = 2 if plane is not None else 3 if isosurface is not None else 1
+        groups = [] if isinstance(boundary, bool) else list(boundary)
+        names = [values] if isinstance(values, str) else list(values)
+        n_values = [self._handle.count_values(name) for name in names]
+        with progress_for(progress) as report:
+            found = self._handle.extract(domain, groups, [0.0] * 4 if plane is None else list(plane), level_field,
+                                         0.0 if isosurface is None else isosurface, field, list(contours), names, tolerance, time_step, report)
+        return mesh_of(found, names, n_values)
 
     def streamlines(self, field: str, seeds: ArrayLike, fields: str | Sequence[str] = (), *, direction: str = "both", tolerance: float = 1e-9,
                     length: float = 0.0, time_step: int = 0, progress: Progress = True) -> list[Streamline]:

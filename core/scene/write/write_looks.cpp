@@ -80,7 +80,7 @@ SceneJson color_map_json(const SceneColorMap& map, const std::string& scene) {
 }
 
 SceneJson line_style_json(const SceneLineStyle& style) {
-    SceneJson json;
+    SceneJson json = SceneJson::object(); // That nothing is said is an object, too.
     if (style.width != width_by_size) {
         json["width"] = style.width;
     }
@@ -94,7 +94,7 @@ SceneJson line_style_json(const SceneLineStyle& style) {
 }
 
 SceneJson contours_json(const SceneContours& contours) {
-    SceneJson json;
+    SceneJson json = SceneJson::object(); // That nothing is said is an object, too.
     if (contours.count > 0) {
         json["count"] = contours.count;
     } else if (!contours.is_round) {

@@ -1,4 +1,5 @@
 #include "session.hpp"
+#include "first_scene.hpp"
 
 #include <core/base/error.hpp>
 #include <core/scene/surface_distance.hpp>
@@ -104,18 +105,7 @@ FieldRange Session::range(const Scene& scene, const std::optional<std::string>& 
     return {found.minimum, found.maximum};
 }
 
-Scene Session::first_scene(const std::string& path) {
-    Scene scene;
-    scene.volume = path;
-    scene.annotation = SceneAnnotation{};
-    const nlohmann::json volume = nlohmann::json::parse(opened().describe_briefly());
-    if (opened().info().dimension == 3 && volume["n_faces"] > 0) {
-        scene.lighting = Lighting{};
-    }
-    const elvis::scene complete = library_scene(scene).completed(opened());
-    scene.surfaces = scene_of(nlohmann::json::parse(complete.json()), no_file).surfaces;
-    return scene;
-}
+Scene Session::first_scene(const std::string& path) { return view::first_scene(m_library, opened(), path); }
 
 Picked Session::pick(const Scene& scene, const PicturePoint& place) {
     return picked_of(nlohmann::json::parse(opened().pick(library_scene(scene), place[0], place[1])));

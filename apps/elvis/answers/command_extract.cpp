@@ -1,0 +1,232 @@
+#include "mesh_files.hpp"
+#include <apps/elvis/commands.hpp>
+#include <apps/elvis/library_context.hpp>
+#include <apps/elvis/number_list.hpp>
+#include <apps/elvis/open_volume.hpp>
+#include <apps/elvis/warp_option.hpp>
+
+#include <core/base/counted.hpp>
+#include <core/base/error.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace elvis::commands {
+
+namespace {
+
+struct ExtractArguments {
+    std::vector<std::string> files;
+    std::string plugin;
+    WarpArguments warp;
+    std::string field, level_field;
+    bool is_boundary = false;
+    std::vector<std::string> groups;
+    std::string plane, isovalue, contours;
+    std::vector<std::string> values;
+    double tolerance = 0;
+    std::uint32_t time_step = 0;
+    bool is_json = false;
+    std::string output;
+};
+
+std::vector<elvis_string> pointers(const std::vector<std::string>& texts) {
+    std::vector<elvis_string> all;
+    for (const std::string& text : texts) {
+        all.push_back(text.c_str());
+    }
+    return all;
+}
+
+/** Before anything is opened. */
+void check_extract(const ExtractArguments& arguments) {
+    const auto ends_in = [&](const char* ending) { return arguments.output.ends_with(ending); };
+    if (!ends_in(".vtp") && !ends_in(".ply") && !ends_in(".stl") && !ends_in(".glb")) {
+        throw UsageError("--output", "'" + arguments.output + "' ends in none of .vtp, .ply, .stl and .glb");
+    }
+    if (ends_in(".stl") && !arguments.contours.empty()) {
+        throw UsageError(arguments.output, "holds triangles alone; .vtp, .ply and .glb hold lines, too");
+    }
+    if (ends_in(".stl") && !arguments.values.empty()) {
+        throw UsageError(arguments.output, "holds no values; .vtp, .ply and .glb do");
+    }
+    if (int{arguments.is_boundary} + int{!arguments.plane.empty()} + int{!arguments.isovalue.empty()} > 1) {
+        throw UsageError("elvis extract", "takes one of --isosurface, --cut-plane and --boundary");
+    }
+    if (!arguments.isovalue.empty() && arguments.level_field.empty() && arguments.field.empty()) {
+        throw UsageError("--isosurface", "which field's? --field or --isosurface-field says it");
+    }
+    if (!arguments.contours.empty() && arguments.field.empty()) {
+        throw UsageError("--contours", "which field's? --field says it");
+    }
+}
+
+extracted mesh_of(const context& library, const data& volume, const ExtractArguments& arguments) {
+    const std::string& level_field = arguments.level_field.empty() ? arguments.field : arguments.level_field;
+    const std::vector<elvis_string> groups = pointers(arguments.groups), values = pointers(arguments.values);
+    std::vector<double> contours;
+    if (!arguments.contours.empty()) {
+        contours = numbers("--contours", arguments.contours, 1, std::numeric_limits<std::size_t>::max());
+    }
+    auto wanted = detail::sized<elvis_extraction>();
+    wanted.domain = ELVIS_DOMAIN_BOUNDARY;
+    wanted.groups = groups.data();
+    wanted.n_groups = static_cast<std::uint32_t>(groups.size());
+    wanted.time_step = arguments.time_step;
+    if (!arguments.plane.empty()) {
+        wanted.domain = ELVIS_DOMAIN_PLANE;
+        std::ranges::copy(numbers("--cut-plane", arguments.plane, 4, 4), wanted.plane);
+    } else if (!arguments.isovalue.empty()) {
+        wanted.domain = ELVIS_DOMAIN_ISOSURFACE;
+        wanted.level_field = level_field.c_str();
+        wanted.isovalue = numbers("--isosurface", arguments.isovalue, 1, 1).front();
+    }
+    wanted.contour_field = arguments.field.c_str();
+    wanted.contours = contours.data();
+    wanted.n_contours = static_cast<std::uint32_t>(contours.size());
+    wanted.fields = values.data();
+    wanted.n_fields = static_cast<std::uint32_t>(values.size());
+    wanted.tolerance = arguments.tolerance;
+    TaskControl control;
+    const ProgressBar progress(control);
+    const InterruptGuard guard(control);
+    return extract(library, volume, wanted,
+                   {[&](double fraction, const char* activity) { control.progress(fraction, activity); },
+                    [&] { return control.is_cancelled(); }});
+}
+
+std::vector<MeshColumn> mesh_columns(const data& volume, const std::vector<std::string>& fields) {
+    std::vector<MeshColumn> columns;
+    std::size_t first = 0;
+    for (const std::string& field : fields) {
+        const elvis_string name = field.c_str();
+        columns.push_back({field, volume.count_values(&name, 1), first});
+        first += columns.back().n_components;
+    }
+    return columns;
+}
+
+void print_json(const elvis_mesh_info& info) {
+    const bool has_lines = info.n_lines > 0;
+    nlohmann::ordered_json answer = {{"vertices", info.n_vertices}, {"triangles", info.n_triangles}, {"lines", info.n_lines}};
+    answer[has_lines ? "length" : "area"] = info.measure;
+    if (!has_lines) {
+        answer["volume"] = info.n_rim_edges + info.n_inner_edges == 0 ? nlohmann::ordered_json(info.volume) : nullptr;
+        answer["euler_number"] = info.euler_number;
+        answer["open_edges"] = {{"rim", info.n_rim_edges}, {"inner", info.n_inner_edges}};
+        answer["branching_edges"] = info.n_branching_edges;
+    } else {
+        answer["open_ends"] = info.n_open_ends;
+    }
+    answer["deviation"] = {{"mesh_to_surface", info.mesh_to_surface}, {"surface_to_mesh", info.surface_to_mesh}};
+    answer["tolerance"] = info.tolerance;
+    answer["certified"] = info.is_certified != 0;
+    answer["sampled_elements"] = info.n_sampled_elements;
+    answer["undecided"] = info.n_undecided;
+    answer["evaluations"] = info.n_evaluations;
+    std::printf("%s\n", answer.dump(2).c_str());
+}
+
+void print_report(const elvis_mesh_info& info, const std::string& path) {
+    if (info.n_lines > 0) {
+        std::printf("%s of %s written to %s\n", counted(info.n_lines, "line").c_str(),
+                    counted(info.n_vertices, "point").c_str(), path.c_str());
+    } else {
+        std::printf("%s of %llu vertices written to %s\n", counted(info.n_triangles, "triangle").c_str(),
+                    static_cast<unsigned long long>(info.n_vertices), path.c_str());
+    }
+    std::printf("  %s %.9g\n", info.n_lines > 0 ? "length" : "area", info.measure);
+    if (info.n_lines == 0 && info.n_triangles > 0 && info.n_rim_edges + info.n_inner_edges == 0) {
+        std::printf("  closed, around a volume of %.9g; Euler number %lld\n", info.volume,
+                    static_cast<long long>(info.euler_number));
+    }
+    std::printf("  off by at most %.3g of the true one, seen at samples; wanted: %.3g\n",
+                std::max(info.mesh_to_surface, info.surface_to_mesh), info.tolerance);
+    if (info.n_rim_edges > 0) {
+        std::printf("  %s where the surface ends\n", counted(info.n_rim_edges, "edge").c_str());
+    }
+    std::printf("  %s\n", info.is_certified != 0 ? "no part of it is missing: certified"
+                                                 : "that no part of it is missing rests on samples, or is undecided");
+}
+
+/** On the other stream. */
+void say_extract_doubts(const elvis_mesh_info& info) {
+    if (info.n_inner_edges > 0) {
+        std::fprintf(stderr, "elvis: %s inside of the volume: there the field jumps, or elements do not meet face to face\n",
+                     counted(info.n_inner_edges, "open edge").c_str());
+    }
+    if (info.n_open_ends > 0) {
+        std::fprintf(stderr, "elvis: lines have %s within the surface\n", counted(info.n_open_ends, "open end").c_str());
+    }
+    if (std::max(info.mesh_to_surface, info.surface_to_mesh) > info.tolerance) {
+        std::fprintf(stderr, "elvis: the mesh is farther from the surface than was wanted: %.3g, not %.3g\n",
+                     std::max(info.mesh_to_surface, info.surface_to_mesh), info.tolerance);
+    }
+}
+
+void run_extract(const ExtractArguments& arguments) {
+    check_extract(arguments);
+    const context library = library_context();
+    const data volume =
+        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
+               arguments.warp, arguments.time_step);
+    const std::vector<MeshColumn> columns = mesh_columns(volume, arguments.values);
+    const extracted mesh = mesh_of(library, volume, arguments);
+    if (arguments.output.ends_with(".vtp")) {
+        write_mesh_vtp(mesh, columns, arguments.output);
+    } else if (arguments.output.ends_with(".ply")) {
+        write_ply(mesh, columns, arguments.output);
+    } else if (arguments.output.ends_with(".stl")) {
+        write_stl(mesh, arguments.output);
+    } else {
+        write_glb(mesh, columns, arguments.output);
+    }
+    arguments.is_json ? print_json(mesh.info) : print_report(mesh.info, arguments.output);
+    say_extract_doubts(mesh.info);
+}
+
+} // namespace
+
+void add_extract(CLI::App& app) {
+    auto arguments = std::make_shared<ExtractArguments>();
+    CLI::App* command = app.add_subcommand("extract", "Write meshes of isosurfaces, cut planes and boundaries, and contours");
+    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
+        ->required();
+    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    command->add_option("--field", arguments->field, "Field, component or expression of isosurface and contours");
+    command->add_option("--isosurface", arguments->isovalue, "The isosurface at this value");
+    command->add_option("--isosurface-field", arguments->level_field,
+                        "Field or expression of the isosurface; default: --field");
+    command->add_option("--cut-plane", arguments->plane, "The plane a,b,c,d: ax+by+cz+d=0");
+    command
+        ->add_option("--boundary", arguments->groups,
+                     "The whole boundary, which is the default; with a name, that group of it; may be repeated")
+        ->expected(0, 1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command->add_option("--contours", arguments->contours,
+                        "v,v,...: in place of the surface the lines on it where --field has these values");
+    command->add_option("--values", arguments->values, "Field or expression whose values are written, too (repeatable)")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "How far mesh and surface may be from each other, as a share of the diagonal of the bounds; default: 1e-3")
+        ->check(CLI::Range(1e-9, 0.5));
+    add_warp(*command, arguments->warp);
+    command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
+    command->add_flag("--json", arguments->is_json, "Print the report as JSON");
+    command->add_option("-o,--output", arguments->output, "File to write: .vtp, .ply, .stl or .glb")->required();
+    command->callback([arguments, command] {
+        arguments->is_boundary = command->count("--boundary") > 0;
+        // Without a name the list holds an empty one.
+        std::erase_if(arguments->groups, [](const std::string& name) { return name.empty() || name == "{}"; });
+        run_extract(*arguments);
+    });
+}
+
+} // namespace elvis::commands

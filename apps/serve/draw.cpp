@@ -1,0 +1,87 @@
+#include "draw.hpp"
+#include "images.hpp"
+
+#include <core/scene/write/write_scene.hpp>
+
+#include <chrono>
+
+namespace elvis::serve {
+
+namespace {
+
+using nlohmann::json;
+
+/** Bit of the flags' channel: see buffers.md. */
+constexpr std::uint32_t undecided = 256;
+
+elvis::scene library_scene(const Served& served, const Scene& scene) {
+    // Paths of scenes are seen from the working directory.
+    return served.library.parse_scene(scene_json(scene, "scene").dump());
+}
+
+double since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+json remarks_json(const picture& drawn) {
+    json list = json::array();
+    for (const picture::remark& remark : drawn.remarks()) {
+        list.push_back({{"text", remark.text}, {"warning", remark.is_warning}});
+    }
+    return list;
+}
+
+json facts_of_picture(const picture& drawn, const elvis_picture_info& info) {
+    return {{"size", {info.width, info.height}},
+            {"counts", json::parse(drawn.stats())["counts"]},
+            {"remarks", remarks_json(drawn)}};
+}
+
+} // namespace
+
+Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSchedule::Step& step, const Line& line,
+                        const task& watch) {
+    auto options = detail::sized<elvis_screen_options>();
+    options.flags = ELVIS_SCREEN_COARSE | (step.with_lines ? 0u : ELVIS_SCREEN_NO_LINES);
+    options.divisor = step.divisor;
+    const picture drawn = served.volume.render_for_screen(library_scene(served, scene), options, watch);
+    const elvis_picture_info info = drawn.info();
+    const auto start = std::chrono::steady_clock::now();
+    Jpeg jpeg = jpeg_of(drawn.read<std::uint8_t>(ELVIS_CHANNEL_COLOR), info.width, info.height, line.shrink, line.quality);
+    json facts = {{"size", {info.width, info.height}}, {"image", {jpeg.width, jpeg.height}}, {"mime", "image/jpeg"}};
+    return {std::move(facts), std::move(jpeg.bytes), info.render_milliseconds + since(start), info.is_refinable != 0};
+}
+
+Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch) {
+    auto options = detail::sized<elvis_render_options>();
+    options.flags = ELVIS_RENDER_COLOR_ONLY;
+    const picture drawn = served.volume.render(library_scene(served, scene), options, watch);
+    const elvis_picture_info info = drawn.info();
+    json facts = facts_of_picture(drawn, info);
+    facts["image"] = facts["size"];
+    facts["mime"] = "image/png";
+    return {std::move(facts), png_of(drawn, served.pictures.path().string()), info.render_milliseconds, false};
+}
+
+Encoded draw_undecided(const Served& served, const Scene& scene, const task& watch) {
+    const picture drawn = served.volume.render(library_scene(served, scene), detail::sized<elvis_render_options>(), watch);
+    const elvis_picture_info info = drawn.info();
+    const std::vector<std::uint32_t> flags = drawn.read<std::uint32_t>(ELVIS_CHANNEL_FLAGS);
+    std::string bits((flags.size() + 7) / 8, '\0');
+    std::size_t n_undecided = 0;
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+        if ((flags[i] & undecided) != 0) {
+            bits[i / 8] = static_cast<char>(static_cast<unsigned char>(bits[i / 8]) | (0x80u >> (i % 8)));
+            ++n_undecided;
+        }
+    }
+    json facts = facts_of_picture(drawn, info);
+    facts["n_undecided"] = n_undecided;
+    return {std::move(facts), std::move(bits), info.render_milliseconds, false};
+}
+
+json pick_at(const Served& served, const Scene& scene, double column, double row, const task& watch) {
+    return json::parse(served.volume.pick(library_scene(served, scene), column, row, watch));
+}
+
+} // namespace elvis::serve

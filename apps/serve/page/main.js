@@ -1,0 +1,314 @@
+// What the page does: it shows the state that the server holds, and asks for changes.
+import {Connection} from "./connection.js";
+import {element} from "./controls.js";
+import {pickedTable, showItem, showScene} from "./editor.js";
+import {Picture} from "./picture.js";
+
+/** @typedef {Record<string, any>} Json */
+
+/** @param {string} id */
+const $ = (id) => /** @type {any} */ (document.getElementById(id));
+
+/** @type {Json} */
+let state = {scene: {}, items: [], addable: []};
+/** @type {Json} */
+let volume = {fields: [], times: [], views: [], bounds: [0, 0, 0, 1, 1, 1]};
+let selected = "surface 0";
+/** @type {Json} */
+let frame = {};
+let playing = false;
+
+/** @param {string | Error} what */
+function say(what) {
+  const text = what instanceof Error ? what.message : what;
+  const line = element("p", {}, [text]);
+  $("messages").append(line);
+  while ($("messages").childElementCount > 3) {
+    $("messages").firstElementChild.remove();
+  }
+  setTimeout(() => line.remove(), 8000);
+}
+
+const connection = new Connection({message: receive, bytes: receiveBytes, line: showLine});
+const picture = new Picture(connection, pick);
+picture.onFrame = showFrame;
+
+/** @param {Json} message */
+const ask = (message) => connection.ask(message).catch((error) => { say(error); return null; });
+
+/** A value at a place of the scene. */
+function set(/** @type {string} */ pointer, /** @type {any} */ value, /** @type {string} */ name, isDone = true) {
+  if (isDone) {
+    ask({type: "set", pointer, value, name}).then(() => connection.tell({type: "release"}));
+  } else {
+    connection.tell({type: "set", pointer, value, name, time: performance.now()});
+  }
+}
+
+/** @param {Json} message */
+function receive(message) {
+  if (message.type === "hello") {
+    volume = message.volume;
+    document.title = `${volume.path} - ElVis`;
+    showViews();
+    picture.resize();
+  } else if (message.type === "state") {
+    state = message;
+    showState();
+  } else if (message.type === "activity") {
+    $("activity").textContent = message.text;
+  } else if (message.type === "error") {
+    say(message.text);
+    playing = false;
+  }
+}
+
+/** @param {Json} facts @param {Uint8Array} bytes */
+function receiveBytes(facts, bytes) {
+  if (facts.type === "frame") {
+    picture.show(facts, bytes).catch(say);
+  }
+}
+
+/** @param {string} text */
+function showLine(text) {
+  $("mark").textContent = text || "connected";
+}
+
+/** @param {Json} facts */
+function showFrame(facts) {
+  frame = facts;
+  $("mark").textContent = Picture.mark(facts.stage);
+  document.body.dataset.stage = facts.stage;
+  document.body.dataset.revision = facts.revision;
+  const counts = facts.counts ?? {};
+  const words = facts.stage === "exact" ? [`${counts.undecided_pixels ?? 0} undecided`] : [];
+  $("counts").textContent = [`${facts.size[0]} x ${facts.size[1]}`, ...words].join(", ");
+  $("counts").title = (facts.remarks ?? []).map((/** @type {Json} */ remark) => remark.text).join("\n");
+  if (facts.stage === "exact" && $("undecided").checked) {
+    showUndecided();
+  }
+  if (playing && facts.stage !== "moving") {
+    nextStep();
+  }
+}
+
+async function showUndecided() {
+  const answer = await ask({type: "undecided"});
+  if (answer && $("undecided").checked && picture.stage === "exact") {
+    picture.showMask(answer.size[0], answer.size[1], answer.bytes ?? new Uint8Array());
+    $("counts").textContent = `${answer.size[0]} x ${answer.size[1]}, ${answer.n_undecided} undecided`;
+  }
+}
+
+/** @param {number} column @param {number} row */
+async function pick(column, row) {
+  const answer = await ask({type: "pick", column, row});
+  if (answer) {
+    $("picked").replaceChildren(pickedTable(answer.picked));
+    $("picked-section").scrollIntoView({block: "nearest"});
+  }
+}
+
+/** @param {Json} item */
+const key = (item) => `${item.kind} ${item.index}`;
+
+function showState() {
+  $("undo").disabled = state.undo === null;
+  $("redo").disabled = state.redo === null;
+  $("undo").title = state.undo ? `Undo: ${state.undo}` : "";
+  $("redo").title = state.redo ? `Redo: ${state.redo}` : "";
+  $("parallel").setAttribute("aria-pressed", String(state.scene.camera?.type === "orthographic"));
+  showItems();
+  // What somebody holds in the hand must not be taken away.
+  const inHand = document.activeElement instanceof HTMLInputElement && document.activeElement.type === "range" &&
+    document.activeElement.matches(":active");
+  if (!inHand) {
+    const fields = volume.fields.flatMap((/** @type {Json} */ field) => field.name);
+    keepFocus(() => showScene($("scene-editor"), state.scene, fields, set));
+    const item = state.items.find((/** @type {Json} */ one) => key(one) === selected);
+    $("item-section").hidden = !item;
+    if (item) {
+      $("item-title").textContent = item.label;
+      keepFocus(() => showItem($("item-editor"), item, state.scene, volume, set));
+    }
+  }
+  showTime();
+  showSavedViews();
+  const [width, height] = state.scene.image?.size ?? [1024, 768];
+  if (document.activeElement !== $("save-width") && document.activeElement !== $("save-height")) {
+    $("save-width").value = width;
+    $("save-height").value = height;
+  }
+}
+
+/**
+ * Controls are made anew; the one with the focus keeps it.
+ * @param {() => void} work
+ */
+function keepFocus(work) {
+  const label = document.activeElement?.getAttribute("aria-label");
+  const parent = document.activeElement?.closest("#item-editor, #scene-editor");
+  work();
+  if (label && parent) {
+    /** @type {HTMLElement | null} */ (parent.querySelector(`[aria-label="${CSS.escape(label)}"]`))?.focus();
+  }
+}
+
+function showItems() {
+  const list = state.items.map((/** @type {Json} */ item) => {
+    const shown = element("input", {type: "checkbox", checked: item.shown, "aria-label": `Show ${item.label}`});
+    shown.onchange = () => ask({type: "show", kind: item.kind, index: item.index, shown: /** @type {HTMLInputElement} */ (shown).checked});
+    const label = element("button", {className: "label", "aria-pressed": String(key(item) === selected)}, [item.label]);
+    label.onclick = () => { selected = key(item); showState(); };
+    const remove = element("button", {"aria-label": `Remove ${item.label}`, title: "Remove"}, ["✕"]);
+    remove.onclick = () => ask({type: "remove", kind: item.kind, index: item.index});
+    return element("li", {className: key(item) === selected ? "selected" : ""}, [shown, label, remove]);
+  });
+  $("items").replaceChildren(...list);
+  const before = $("new-item").value;
+  $("new-item").replaceChildren(...state.addable.map((/** @type {Json} */ item) => element("option", {value: item.name, title: item.help}, [item.name])));
+  $("new-item").value = state.addable.some((/** @type {Json} */ item) => item.name === before) ? before : state.addable[0]?.name ?? "";
+}
+
+/** @param {Json | null} answer */
+function selectAnswer(answer) {
+  if (answer) {
+    selected = key(answer);
+    showState();
+  }
+}
+
+async function add() {
+  const name = $("new-item").value;
+  /** @type {Json} */
+  const message = {type: "add", name};
+  if (name === "Isosurface") {
+    const range = await ask({type: "range"});
+    if (!range) {
+      return;
+    }
+    message.middle = (range.minimum + range.maximum) / 2;
+  }
+  selectAnswer(await ask(message));
+}
+
+function showViews() {
+  const names = ["all", ...volume.views];
+  $("views").replaceChildren(...names.map((name) => {
+    const button = element("button", {"aria-label": name === "all" ? "Show all" : `View from ${name}`}, [name]);
+    button.onclick = () => connection.tell({type: "view", name, time: performance.now()});
+    return button;
+  }));
+}
+
+function showSavedViews() {
+  const views = state.scene.views ?? [];
+  $("saved-views").replaceChildren(...views.map((/** @type {Json} */ view, /** @type {number} */ index) => {
+    const go = element("button", {className: "label"}, [view.name]);
+    go.onclick = () => ask({type: "set", pointer: "/camera", value: view.camera, name: "view"});
+    const remove = element("button", {"aria-label": `Remove ${view.name}`}, ["✕"]);
+    remove.onclick = () => set(`/views/${index}`, null, "views");
+    return element("li", {}, [go, remove]);
+  }));
+}
+
+async function saveView() {
+  const saved = await ask({type: "save scene"});
+  if (saved) {
+    const views = saved.scene.views ?? [];
+    set("/views", [...views, {name: `View ${views.length + 1}`, camera: saved.scene.camera}], "views");
+  }
+}
+
+function showTime() {
+  $("time-section").hidden = volume.times.length < 2;
+  const step = state.scene.volume?.time_step ?? 0;
+  $("time").max = volume.times.length - 1;
+  $("time").value = step;
+  $("time-text").textContent = String(volume.times[step] ?? "");
+}
+
+function nextStep() {
+  const step = ((state.scene.volume?.time_step ?? 0) + 1) % volume.times.length;
+  connection.tell({type: "set", pointer: "/volume/time_step", value: step, name: "time step"});
+}
+
+/** @param {string} name @param {BlobPart} content @param {string} type */
+function download(name, content, type) {
+  const url = URL.createObjectURL(new Blob([content], {type}));
+  const link = /** @type {HTMLAnchorElement} */ (element("a", {href: url, download: name}));
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+
+const stem = () => String(volume.path ?? "scene").replace(/\.[^.]*$/, "");
+
+async function savePicture() {
+  const [width, height] = [Number($("save-width").value), Number($("save-height").value)];
+  // What is shown is what would be drawn.
+  const isShown = picture.exact && picture.size[0] === width && picture.size[1] === height;
+  const bytes = isShown ? picture.exact : (await ask({type: "save picture", width, height}))?.bytes;
+  if (bytes) {
+    download(`${stem()}.png`, bytes, "image/png");
+  }
+}
+
+$("undo").onclick = () => ask({type: "undo"});
+$("redo").onclick = () => ask({type: "redo"});
+$("add").onclick = add;
+$("copy").onclick = () => {
+  const item = state.items.find((/** @type {Json} */ one) => key(one) === selected);
+  if (item) {
+    ask({type: "copy", kind: item.kind, index: item.index}).then(selectAnswer);
+  }
+};
+$("save-view").onclick = saveView;
+$("save-picture").onclick = savePicture;
+$("pick-middle").onclick = () => pick(picture.size[0] / 2, picture.size[1] / 2);
+$("parallel").onclick = () => ask({type: "projection", orthographic: $("parallel").getAttribute("aria-pressed") !== "true"});
+$("panel-toggle").onclick = () => {
+  const isFull = document.body.classList.toggle("full");
+  $("panel-toggle").setAttribute("aria-pressed", String(!isFull));
+};
+$("undecided").onchange = () => ($("undecided").checked ? showUndecided() : picture.hideMask());
+$("time").oninput = () => connection.tell({type: "set", pointer: "/volume/time_step", value: Number($("time").value), name: "time step"});
+$("time").onchange = () => connection.tell({type: "release"});
+$("play").onclick = () => {
+  playing = !playing;
+  $("play").setAttribute("aria-pressed", String(playing));
+  $("play").textContent = playing ? "Stop" : "Play";
+  if (playing) {
+    nextStep();
+  } else {
+    connection.tell({type: "release"});
+  }
+};
+$("save-scene").onclick = async () => {
+  const saved = await ask({type: "save scene"});
+  if (saved) {
+    download(`${stem()}.json`, saved.text + "\n", "application/json");
+  }
+};
+$("load-scene").onchange = async () => {
+  const file = $("load-scene").files[0];
+  $("load-scene").value = "";
+  try {
+    if (file) {
+      await ask({type: "load", scene: JSON.parse(await file.text())});
+    }
+  } catch (error) {
+    say(`${file.name} is no scene: ${error}`);
+  }
+};
+document.addEventListener("keydown", (event) => {
+  const isTyping = event.target instanceof HTMLInputElement && (event.target.type === "text" || event.target.type === "number");
+  if ((event.ctrlKey || event.metaKey) && !isTyping && (event.key === "z" || event.key === "y")) {
+    ask({type: event.key === "y" || event.shiftKey ? "redo" : "undo"});
+    event.preventDefault();
+  }
+});
+
+// For those who measure.
+Object.assign(window, {elvis: {connection, picture, state: () => state, frame: () => frame}});
+connection.open();

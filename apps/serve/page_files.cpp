@@ -1,0 +1,19 @@
+#include "page_files.hpp"
+
+#include "page_texts.hpp"
+
+namespace elvis::serve {
+
+std::optional<PageFile> page_file(std::string_view name) {
+    const std::string file = name.empty() ? "index.html" : std::string(name);
+    for (const auto& [own, text] : page_texts::files) {
+        if (file == own) {
+            const std::string ending = file.substr(file.rfind('.') + 1);
+            const std::string kind = ending == "js" ? "javascript" : ending;
+            return PageFile{text, ending == "svg" ? "image/svg+xml" : "text/" + kind + "; charset=utf-8"};
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace elvis::serve

@@ -1,0 +1,59 @@
+#include "sessions.hpp"
+#include "token.hpp"
+
+#include <algorithm>
+
+namespace elvis::serve {
+
+std::shared_ptr<Session> Sessions::find_or_make(const std::string& id) {
+    if (const auto found = m_entries.find(id); found != m_entries.end()) {
+        return found->second.session;
+    }
+    if (m_entries.size() >= m_most) {
+        auto oldest = m_entries.end();
+        for (auto entry = m_entries.begin(); entry != m_entries.end(); ++entry) {
+            if (entry->second.page == nullptr &&
+                (oldest == m_entries.end() || entry->second.detached < oldest->second.detached)) {
+                oldest = entry;
+            }
+        }
+        if (oldest == m_entries.end()) {
+            return nullptr;
+        }
+        m_entries.erase(oldest);
+    }
+    const std::string name = random_digits(16);
+    auto session = std::make_shared<Session>(m_served, name);
+    m_entries[name] = {session, nullptr, Clock::now()};
+    return session;
+}
+
+void Sessions::attached(const std::string& id, const void* page) {
+    if (const auto found = m_entries.find(id); found != m_entries.end()) {
+        found->second.page = page;
+    }
+}
+
+void Sessions::detached(const std::string& id, const void* page) {
+    const auto found = m_entries.find(id);
+    if (found != m_entries.end() && found->second.page == page) {
+        found->second.page = nullptr;
+        found->second.detached = Clock::now();
+        found->second.session->detach();
+    }
+}
+
+void Sessions::end_old() {
+    std::erase_if(m_entries, [](const auto& entry) {
+        return entry.second.page == nullptr && Clock::now() - entry.second.detached > session_patience;
+    });
+}
+
+void Sessions::stop_all() {
+    for (const auto& [id, entry] : m_entries) {
+        entry.session->stop();
+    }
+    m_entries.clear();
+}
+
+} // namespace elvis::serve

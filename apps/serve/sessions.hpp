@@ -1,0 +1,48 @@
+/**
+ * @file sessions.hpp
+ * Who looks at the volume: sessions by their names, for some minutes also without a page. For one thread.
+ */
+#pragma once
+
+#include "session.hpp"
+
+#include <chrono>
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace elvis::serve {
+
+/** So long a session waits for its page to come back. */
+inline constexpr std::chrono::minutes session_patience{10};
+
+class Sessions {
+public:
+    Sessions(std::shared_ptr<const Served> served, std::size_t most) : m_served(std::move(served)), m_most(most) {}
+
+    /**
+     * The one of that name, or a new one. In place of the one that has waited longest for its page if there are too many;
+     * nullptr if all have theirs.
+     */
+    std::shared_ptr<Session> find_or_make(const std::string& id);
+    /** `page`: a mark of the connection. A page that comes to a session takes it from the one before. */
+    void attached(const std::string& id, const void* page);
+    void detached(const std::string& id, const void* page);
+    void end_old();
+    void stop_all();
+
+private:
+    using Clock = std::chrono::steady_clock;
+    struct Entry {
+        std::shared_ptr<Session> session;
+        const void* page = nullptr;
+        Clock::time_point detached{};
+    };
+
+    std::shared_ptr<const Served> m_served;
+    std::size_t m_most;
+    std::map<std::string, Entry> m_entries;
+};
+
+} // namespace elvis::serve
