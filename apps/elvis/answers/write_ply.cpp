@@ -19,7 +19,7 @@ std::string word_for(const std::string& name) {
 
 std::string ply_header(const extracted& mesh, const std::vector<MeshColumn>& columns, std::size_t n_edges) {
     std::string text = "ply\nformat binary_little_endian 1.0\ncomment written by ElVis\nelement vertex ";
-    text += std::to_string(mesh.info.n_vertices) + "\n";
+    text.append(std::to_string(mesh.info.n_vertices)).append("\n");
     for (const char* const name : {"x", "y", "z", "nx", "ny", "nz"}) {
         text.append("property double ").append(name).append("\n");
     }
@@ -27,7 +27,10 @@ std::string ply_header(const extracted& mesh, const std::vector<MeshColumn>& col
     for (const MeshColumn& column : columns) {
         for (std::uint32_t component = 0; component < column.n_components; ++component) {
             text.append("property double ").append(word_for(column.name));
-            text += column.n_components > 1 ? "_" + std::to_string(component) + "\n" : std::string("\n");
+            if (column.n_components > 1) {
+                text.append("_").append(std::to_string(component));
+            }
+            text += '\n';
         }
     }
     if (mesh.info.n_lines == 0) {

@@ -20,7 +20,7 @@ std::vector<std::string> choices_in(const std::string& type) {
     return choices;
 }
 
-OptionFacts facts_of(const CLI::Option& option) {
+OptionFacts facts_of_option(const CLI::Option& option) {
     OptionFacts facts;
     for (const std::string& name : option.get_snames()) {
         facts.names.push_back("-" + name);
@@ -46,7 +46,7 @@ CommandFacts facts_of(const CLI::App& command) {
     facts.about = command.get_description();
     for (const CLI::Option* option : command.get_options()) {
         if (!option->get_group().empty()) {
-            facts.options.push_back(facts_of(*option));
+            facts.options.push_back(facts_of_option(*option));
         }
     }
     std::stable_partition(facts.options.begin(), facts.options.end(),
