@@ -148,6 +148,14 @@ std::uint64_t peak_memory() {
     return ::getrusage(RUSAGE_SELF, &usage) == 0 ? kibibyte * static_cast<std::uint64_t>(usage.ru_maxrss) : 0;
 }
 
+/** As in pictures of the whole: of two surfaces at the same depth the first one is seen. */
+std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
+    std::vector<std::size_t> order(surfaces.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_partition(order, [&](std::size_t index) { return !surfaces[index].is_see_through(); });
+    return order;
+}
+
 std::vector<PartPicture> all_pictures(const std::vector<std::vector<std::byte>>& of_ranks) {
     std::vector<PartPicture> pictures;
     for (const std::vector<std::byte>& bytes : of_ranks) {
@@ -239,7 +247,6 @@ std::vector<std::byte> VolumeInParts::Impl::draw_own(const FrameRequest& request
         Frame frame = render_in_bands(alone, request, control);
         const auto is_own = [&](std::int64_t number) { return part->own.hold(number); };
         pack(part_picture(part->part, std::move(frame), is_own), bytes);
-        work.device_bytes += device_bytes(part->renderer);
     }
     work.picture_bytes += bytes.size();
     return bytes;
@@ -257,7 +264,6 @@ std::vector<std::byte> VolumeInParts::Impl::draw_own_light(const FrameRequest& r
             throw Error("image", "a picture of so many pixels of the volume itself cannot be drawn in parts on this device");
         }
         pack(part_picture(part->part, part->renderer.render(light, control), {}), bytes);
-        work.device_bytes += device_bytes(part->renderer);
     }
     work.picture_bytes += bytes.size();
     return bytes;
@@ -265,10 +271,19 @@ std::vector<std::byte> VolumeInParts::Impl::draw_own_light(const FrameRequest& r
 
 /** Of the first process; elsewhere empty. */
 Frame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request) {
-    FrameRequest surfaces = request;
-    surfaces.volume.reset();
-    const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own(surfaces)));
-    return team.is_first() ? folded(surfaces, pictures, diagonal_of(ranges->bounds()), precision) : Frame{};
+    Frame picture = team.is_first() ? empty_picture(request, precision) : Frame{};
+    // One by one: a part cannot tell which lines of a surface another surface hides.
+    for (const std::size_t index : drawing_order(request.surfaces)) {
+        FrameRequest alone = request;
+        alone.surfaces = {request.surfaces[index]};
+        alone.volume.reset();
+        const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own(alone)));
+        if (team.is_first()) {
+            add_surface(folded(alone, pictures, diagonal_of(ranges->bounds()), precision), index, picture);
+        }
+    }
+    finish_surfaces(picture);
+    return picture;
 }
 
 void VolumeInParts::Impl::draw_light(const FrameRequest& request, Frame& frame) {
@@ -284,6 +299,13 @@ void VolumeInParts::Impl::draw_light(const FrameRequest& request, Frame& frame) 
 
 std::vector<PartsWork> VolumeInParts::Impl::work_of_all() {
     work.rank = team.rank();
+    work.device_bytes = 0;
+    for (const std::unique_ptr<DrawnPart>& part : parts) {
+        work.device_bytes += device_bytes(part->renderer);
+    }
+    for (const std::unique_ptr<BarePart>& part : bare_parts) {
+        work.device_bytes += device_bytes(part->renderer);
+    }
     work.peak_memory_bytes = peak_memory();
     const auto own = std::as_bytes(std::span(&work, 1));
     std::vector<PartsWork> all;
@@ -324,7 +346,7 @@ PartsPicture VolumeInParts::draw(const Scene& scene) {
         impl.open_bare_parts();
     }
     impl.share_ranges(request);
-    impl.work.device_bytes = impl.work.picture_bytes = 0;
+    impl.work.picture_bytes = 0;
     picture.still.frame = impl.draw_surfaces(request);
     if (request.volume) {
         impl.draw_light(request, picture.still.frame);

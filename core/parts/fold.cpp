@@ -26,6 +26,9 @@ constexpr std::uint32_t misses =
 /** So does what may be in front of an element of the part's own. Of elements around it another part knows better. */
 constexpr std::uint32_t own_doubts = misses | pixel_flag::undecided | pixel_flag::overlap;
 
+/** Of flags: those of surfaces that are not seen there stand above the others until all surfaces are there. */
+constexpr std::uint32_t half_bits = 16, lower_half = 0xffff;
+
 /** What a pixel shows so far. */
 struct Shown {
     const PartPixel* own = nullptr;
@@ -240,9 +243,24 @@ void put_in_front(const LightRun& light, std::span<double> color) {
 /** Of the diagonal: where faces between parts lie is rounded, far more where a ray grazes them. */
 constexpr double hardly_overlapping = 1e-4;
 
+/** Counts of work and times; what is met, and what overlaps, is known from elsewhere. */
+void add_work(const Frame& from, Frame& to) {
+    Frame facts;
+    facts.counts = from.counts;
+    facts.counts.overlapping_elements = to.counts.overlapping_elements;
+    facts.counts.half_drawn_elements = to.counts.half_drawn_elements;
+    facts.submissions = from.submissions;
+    facts.host_waits = from.host_waits;
+    facts.is_met.resize(to.is_met.size());
+    facts.special_values.resize(to.special_values.size());
+    add_part(facts, to);
+    to.render_milliseconds += from.render_milliseconds;
+    to.device_milliseconds += from.device_milliseconds;
+}
+
 } // namespace
 
-Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Precision precision) {
+Frame empty_picture(const FrameRequest& request, Precision precision) {
     FrameRequest empty = request;
     if (precision == Precision::float32) {
         // As the device has it.
@@ -250,6 +268,13 @@ Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures,
                                [](double channel) { return static_cast<double>(static_cast<float>(channel)); });
     }
     Frame frame = background_frame(empty);
+    frame.is_met.resize(request.surfaces.size());
+    frame.special_values.resize(request.surfaces.size());
+    return frame;
+}
+
+Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Precision precision) {
+    Frame frame = empty_picture(request, precision);
     std::uint64_t n_overlapping = 0;
     for (const PartPicture& picture : pictures) {
         add_part(picture.facts, frame);
@@ -263,25 +288,42 @@ Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures,
     settle(shown, same_depth * diagonal);
     write_pixels(shown, frame);
     LineDoubts(request, frame).flag(pictures, shown);
-    count_pixels(frame);
     return frame;
+}
+
+void add_surface(const Frame& surface, std::size_t index, Frame& picture) {
+    for (std::size_t pixel = 0; pixel < picture.flags.size(); ++pixel) {
+        const bool is_drawn = surface.element[pixel] >= 0, is_empty = picture.element[pixel] < 0;
+        const bool is_nearest = is_drawn && (is_empty || surface.depth[pixel] < picture.depth[pixel]);
+        const std::uint32_t front = is_nearest ? surface.flags[pixel] : picture.flags[pixel];
+        const std::uint32_t back = is_nearest ? picture.flags[pixel] : surface.flags[pixel];
+        const std::uint32_t staying = back & (is_drawn ? own_doubts : lower_half);
+        picture.flags[pixel] = (front & lower_half) | ((front | back) & ~lower_half) | (staying << half_bits);
+        if (is_nearest) {
+            picture.element[pixel] = surface.element[pixel];
+            picture.value[pixel] = surface.value[pixel];
+            picture.depth[pixel] = surface.depth[pixel];
+            std::copy_n(&surface.normal[3 * pixel], 3, &picture.normal[3 * pixel]);
+            std::copy_n(&surface.color[4 * pixel], 4, &picture.color[4 * pixel]);
+        }
+    }
+    add_work(surface, picture);
+    picture.counts.overlapping_elements = surface.counts.overlapping_elements;
+    picture.is_met[index] = surface.is_met.front();
+    picture.special_values[index] = surface.special_values.front();
+}
+
+void finish_surfaces(Frame& picture) {
+    for (std::uint32_t& flags : picture.flags) {
+        flags = settled((flags | flags >> half_bits) & lower_half);
+    }
+    count_pixels(picture);
 }
 
 void add_light(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Frame& frame) {
     double color_error = 0;
     for (const PartPicture& picture : pictures) {
-        // What is met, and what overlaps, is known from the surfaces.
-        Frame facts;
-        facts.counts = picture.facts.counts;
-        facts.counts.overlapping_elements = frame.counts.overlapping_elements;
-        facts.counts.half_drawn_elements = frame.counts.half_drawn_elements;
-        facts.submissions = picture.facts.submissions;
-        facts.host_waits = picture.facts.host_waits;
-        facts.is_met.resize(frame.is_met.size());
-        facts.special_values.resize(frame.special_values.size());
-        add_part(facts, frame);
-        frame.render_milliseconds += picture.facts.render_milliseconds;
-        frame.device_milliseconds += picture.facts.device_milliseconds;
+        add_work(picture.facts, frame);
         color_error = std::max(color_error, picture.facts.color_error);
     }
     std::uint64_t n_colored = 0;

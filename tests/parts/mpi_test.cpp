@@ -21,10 +21,10 @@ public:
         REQUIRE(run("convert box.json -o box.h5").status == 0);
         // No more than it takes: each process makes its kernels.
         write("scene.json", R"({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [96, 72]},
-            "surfaces": [{"type": "plane", "plane": [1, 0, 0, 0.1]}], "mesh_lines": {}})");
+            "surfaces": [{"type": "plane", "plane": [1, 0, 0, 0.1]}]})");
         write("volume.json",
               R"({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [64, 48]}, "volume_rendering": {},
-            "surfaces": [{"type": "boundary", "clip": [[-1, 0, 0, -0.1]]}]})");
+            "surfaces": [{"type": "plane", "plane": [1, 0.2, 0, 0.1]}]})");
     }
 
     /** What a shell makes of these words for mpirun, where $E is elvis-mpi. */

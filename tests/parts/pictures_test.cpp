@@ -136,6 +136,11 @@ TEST_CASE("Lines in parts are those of the whole, or flagged") {
         {"contours and mesh lines",
          R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}], "contours": {"values": [-0.5, 0, 0.5]}, "mesh_lines": {})"},
         4);
+    compare(
+        stage,
+        {"mesh lines of two planes",
+         R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}, {"type": "plane", "plane": [1, 0, 0, 0]}], "mesh_lines": {})"},
+        4);
     compare(stage,
             {"wide ones on the boundary",
              R"("surfaces": [{"type": "boundary"}], "contours": {"values": [0], "width": 5}, "mesh_lines": {"width": 3})"},
