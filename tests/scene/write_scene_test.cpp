@@ -157,7 +157,7 @@ TEST_CASE("A scene that was written reads as it was") {
 }
 
 TEST_CASE("Lines of which nothing is said are written") {
-    const json lines = {{"contours", json::object()}, {"mesh_lines", json::object()}};
+    const json lines = {{"contours", json::object()}, {"mesh_lines", {{"width", 1.0}}}};
     json document = lines;
     document["version"] = 1;
     document["surfaces"] = json::array({lines});
