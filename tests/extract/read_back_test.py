@@ -219,5 +219,5 @@ class ReadBackTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    ELVIS = sys.argv.pop(1)
+    ELVIS = str(Path(sys.argv.pop(1)).resolve())
     unittest.main()

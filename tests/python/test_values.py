@@ -107,7 +107,7 @@ class Values(WithVolume):
         np.testing.assert_allclose(lines.positions[lines.lines[0]][:, [0, 2]], [[0.5, 0.1]] * len(lines.lines[0]), atol=1e-12)
         self.assertGreater(self.volume.extract(boundary=True, tolerance=1e-2).measure, 20)
         self.assertRaises(ValueError, lambda: self.volume.extract(isosurface=0.4))
-        self.assertRaises(elvis.Error, lambda: self.volume.extract("pressure", isosurface=0.4))
+        self.assertRaises(elvis.Error, lambda: self.volume.extract("nothing", isosurface=0.4))
 
     def test_a_warp_displaces_points_and_takes_values_along(self):
         point = np.array([0.3, -0.2, 0.4])
