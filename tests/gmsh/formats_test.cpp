@@ -9,19 +9,21 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 namespace {
 
 /** Saves what a script meshes in all four formats: v41.msh, v41b.msh, v22.msh, v22b.msh. */
-void make_all_formats(const TemporaryFolder& folder, std::string script, int dimension, int order) {
-    script += "Mesh.ElementOrder = " + std::to_string(order) + ";\nMesh " + std::to_string(dimension) + ";\n";
+void make_all_formats(const TemporaryFolder& folder, const std::string& script, int dimension, int order) {
+    std::ostringstream text;
+    text << script << "Mesh.ElementOrder = " << order << ";\nMesh " << dimension << ";\n";
     for (const char* const version : {"41", "22"}) {
         for (const char* const binary : {"", "b"}) {
-            script += std::string("Mesh.MshFileVersion = ") + version[0] + "." + version[1] +
-                      "; Mesh.Binary = " + (*binary ? "1" : "0") + "; Save \"v" + version + binary + ".msh\";\n";
+            text << "Mesh.MshFileVersion = " << version[0] << '.' << version[1] << "; Mesh.Binary = " << (*binary ? 1 : 0)
+                 << "; Save \"v" << version << binary << ".msh\";\n";
         }
     }
-    run_gmsh(folder, script, "-parse_and_exit");
+    run_gmsh(folder, text.str(), "-parse_and_exit");
 }
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
