@@ -57,6 +57,16 @@ TEST_CASE("What a conversion loses is said each time") {
     }
 }
 
+TEST_CASE("Where a field is not a number is told, and is no residual") {
+    const ProgramFolder place;
+    const std::string solid = ELVIS_SOURCES "/tests/data/exodus/solid.e";
+    const std::string gaps = "field material is not a number in 3 elements";
+    CHECK_THAT(run_with_cache(place, "info " + solid).err, Contains("NOT exact: " + gaps) && !Contains("residual"));
+    const Outcome converted = run_with_cache(place, "convert " + solid + " -o solid.h5");
+    CHECK_THAT(converted.out, Contains("field material: NOT exact") && Contains(", not a number in 3 elements\n"));
+    CHECK_THAT(converted.out, Contains("field u: exact but for round-off"));
+}
+
 TEST_CASE("Without a cache the volume is gone at the end") {
     const ProgramFolder place;
     place.write("box.json", R"({"generator": 1, "mesh": "box", "elements": [2, 1, 1], "field": "sphere"})");
