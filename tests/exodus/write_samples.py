@@ -40,6 +40,14 @@ def q(s):
     return s[..., 0] ** 2 - 0.5 * s[..., 0] * s[..., 1] + 0.25 * s[..., -1] ** 2 + s[..., 1] * s[..., -1]
 
 
+def texts(file, name, dims, rows):
+    variable = file.createVariable(name, "S1", dims)
+    for row, text in enumerate(rows):
+        letters = np.zeros(33, "S1")
+        letters[:len(text)] = list(text)
+        variable[row] = letters
+
+
 def write(path, kind, blocks, dimension, one_array):
     straight, connectivity = [], []
     skew = np.array([[1.0, 0.2, 0.1], [-0.1, 0.9, 0.15], [0.05, -0.2, 1.1]])[:dimension, :dimension]
@@ -67,13 +75,6 @@ def write(path, kind, blocks, dimension, one_array):
                            ("num_el_blk", len(blocks) + 1), ("num_side_sets", 2), ("num_nod_var", 1 + dimension), ("num_elem_var", 2)]:
             file.createDimension(name, size)
 
-        def texts(name, dims, rows):
-            variable = file.createVariable(name, "S1", dims)
-            for row, text in enumerate(rows):
-                letters = np.zeros(33, "S1")
-                letters[:len(text)] = list(text)
-                variable[row] = letters
-
         if one_array:
             file.createVariable("coord", "f8", ("num_dim", "num_nodes"))[:] = x.T
         else:
@@ -81,7 +82,7 @@ def write(path, kind, blocks, dimension, one_array):
                 file.createVariable("coord" + "xyz"[axis], "f8", ("num_nodes",))[:] = x[:, axis]
         file.createVariable("time_whole", "f8", ("time_step",))[:] = [0.0, 0.5, 2.0]
         file.createVariable("eb_prop1", "i4", ("num_el_blk",))[:] = 100 + np.arange(len(blocks) + 1)
-        texts("eb_names", ("num_el_blk", "len_name"), [name for name, _, _ in blocks] + [""])
+        texts(file, "eb_names", ("num_el_blk", "len_name"), [name for name, _, _ in blocks] + [""])
         for number, ((name, _, _), nodes) in enumerate(zip(blocks, connectivity), 1):
             file.createDimension(f"num_el_in_blk{number}", 1)
             file.createDimension(f"num_nod_per_el{number}", len(nodes))
@@ -89,8 +90,8 @@ def write(path, kind, blocks, dimension, one_array):
             variable.elem_type = name
             variable[0] = nodes
         # The last block is empty: it has no dimension of its own.
-        texts("name_nod_var", ("num_nod_var", "len_name"), ["u"] + ["s_" + axis for axis in "xyz"[:dimension]])
-        texts("name_elem_var", ("num_elem_var", "len_name"), ["quality", "material"])
+        texts(file, "name_nod_var", ("num_nod_var", "len_name"), ["u"] + ["s_" + axis for axis in "xyz"[:dimension]])
+        texts(file, "name_elem_var", ("num_elem_var", "len_name"), ["quality", "material"])
         table = np.ones((len(blocks) + 1, 2), int)
         table[1, 1] = 0
         file.createVariable("elem_var_tab", "i4", ("num_el_blk", "num_elem_var"))[:] = table
@@ -105,7 +106,7 @@ def write(path, kind, blocks, dimension, one_array):
                         name = f"vals_elem_var{variable + 1}eb{number}"
                         target = file.variables.get(name) or file.createVariable(name, "f8", ("time_step", f"num_el_in_blk{number}"))
                         target[step] = 10 * number + variable + time
-        texts("ss_names", ("num_side_sets", "len_name"), ["wall", ""])
+        texts(file, "ss_names", ("num_side_sets", "len_name"), ["wall", ""])
         file.createVariable("ss_prop1", "i4", ("num_side_sets",))[:] = [7, 8]
         # Side 1 of all elements, and side 3 of all.
         for number, side in [(1, 1), (2, 3)]:
@@ -123,28 +124,21 @@ def write_part(path, part):
                            ("num_nod_var", 1), ("num_elem_var", 1), ("num_el_in_blk2", 1), ("num_nod_per_el2", 8), (f"num_side_ss{part + 1}", 1)]:
             file.createDimension(name, size)
 
-        def texts(name, dims, rows):
-            variable = file.createVariable(name, "S1", dims)
-            for row, text in enumerate(rows):
-                letters = np.zeros(33, "S1")
-                letters[:len(text)] = list(text)
-                variable[row] = letters
-
         for axis in range(3):
             file.createVariable("coord" + "xyz"[axis], "f8", ("num_nodes",))[:] = points[:, axis]
         file.createVariable("time_whole", "f8", ("time_step",))[:] = [0.0, 1.0]
         connectivity = file.createVariable("connect2", "i4", ("num_el_in_blk2", "num_nod_per_el2"))
         connectivity.elem_type = "HEX8"
         connectivity[0] = np.arange(8) + 1
-        texts("name_nod_var", ("num_nod_var", "len_name"), ["u"])
-        texts("name_elem_var", ("num_elem_var", "len_name"), ["rank"])
+        texts(file, "name_nod_var", ("num_nod_var", "len_name"), ["u"])
+        texts(file, "name_elem_var", ("num_elem_var", "len_name"), ["rank"])
         for step in range(2):
             for name, dims, values in [("vals_nod_var1", ("time_step", "num_nodes"), points @ [1, 2, -1] + step),
                                        ("vals_elem_var1eb2", ("time_step", "num_el_in_blk2"), part)]:
                 target = file.variables.get(name) or file.createVariable(name, "f8", dims)
                 target[step] = values
         # Each part has the outer side along x of one of the sets: side 4 is x = 0, side 2 is x = 2.
-        texts("ss_names", ("num_side_sets", "len_name"), ["inlet", "outlet"])
+        texts(file, "ss_names", ("num_side_sets", "len_name"), ["inlet", "outlet"])
         file.createVariable(f"elem_ss{part + 1}", "i4", (f"num_side_ss{part + 1}",))[:] = 1
         file.createVariable(f"side_ss{part + 1}", "i4", (f"num_side_ss{part + 1}",))[:] = 4 if part == 0 else 2
 
