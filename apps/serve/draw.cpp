@@ -1,6 +1,7 @@
 #include "draw.hpp"
 #include "images.hpp"
 
+#include <core/render/frame.hpp>
 #include <core/scene/write/write_scene.hpp>
 
 #include <chrono>
@@ -11,8 +12,10 @@ namespace {
 
 using nlohmann::json;
 
-/** Bit of the flags' channel: see buffers.md. */
-constexpr std::uint32_t undecided = 256;
+/** All by which a picture says of a pixel that it may be wrong: core/scene/buffers.md. */
+constexpr std::uint32_t doubts = pixel_flag::contour_undecided | pixel_flag::mesh_line_undecided | pixel_flag::newton_failure |
+                                 pixel_flag::isosurface_undecided | pixel_flag::volume_tolerance | pixel_flag::undecided |
+                                 pixel_flag::work_limit | pixel_flag::range_too_fine | pixel_flag::overlap;
 
 elvis::scene library_scene(const Served& served, const Scene& scene) {
     // Paths of scenes are seen from the working directory.
@@ -70,7 +73,7 @@ Encoded draw_undecided(const Served& served, const Scene& scene, const task& wat
     std::string bits((flags.size() + 7) / 8, '\0');
     std::size_t n_undecided = 0;
     for (std::size_t i = 0; i < flags.size(); ++i) {
-        if ((flags[i] & undecided) != 0) {
+        if ((flags[i] & doubts) != 0) {
             bits[i / 8] = static_cast<char>(static_cast<unsigned char>(bits[i / 8]) | (0x80u >> (i % 8)));
             ++n_undecided;
         }

@@ -35,7 +35,7 @@ Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSch
                         const task& watch);
 /** A PNG, the bytes of `elvis render`. */
 Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch);
-/** One bit a pixel, rows from the top without gaps, the highest bit first: whether it is undecided what the pixel shows. */
+/** One bit a pixel, rows from the top without gaps, the highest bit first: whether a flag says that the pixel may be wrong. */
 Encoded draw_undecided(const Served& served, const Scene& scene, const task& watch);
 
 /** JSON of elvis_data_pick. */

@@ -208,6 +208,17 @@ class ServeTest(unittest.TestCase):
         self.assertEqual(len(mask["bytes"]), SIZE[0] * SIZE[1] // 8)
         self.assertEqual(sum(byte.bit_count() for byte in mask["bytes"]), mask["n_undecided"])
 
+    def test_every_doubt_is_marked(self):
+        page = self.page()
+        none_halved = {"type": "plane", "plane": [0, 0, 1, 0], "contours": {"count": 20, "subdivisions": 0}, "mesh_lines": {"subdivisions": 0}}
+        page.ask(type="set", pointer="/surfaces", value=[none_halved])
+        counts = page.exact()["counts"]
+        doubtful = [counts[name] for name in ("undecided_pixels", "undecided_contour_pixels", "undecided_mesh_line_pixels")]
+        self.assertGreater(counts["undecided_contour_pixels"], counts["undecided_pixels"])
+        n_marked = page.ask(type="undecided")["n_undecided"]
+        self.assertLessEqual(max(doubtful), n_marked)
+        self.assertLessEqual(n_marked, sum(doubtful))
+
     def test_lost_connection_keeps_the_state(self):
         page = self.page()
         page.ask(type="set", pointer="/color_map", value={"name": "magma"})

@@ -75,6 +75,27 @@ function showLine(text) {
   $("mark").textContent = text || "connected";
 }
 
+/** @type {[string, string][]} */
+const doubts = [
+  ["undecided_pixels", "undecided"],
+  ["undecided_isosurface_pixels", "undecided of isosurfaces"],
+  ["undecided_contour_pixels", "undecided of contours"],
+  ["undecided_mesh_line_pixels", "undecided of mesh lines"],
+  ["inexact_volume_pixels", "beyond the volume's tolerance"],
+  ["work_limit_pixels", "cut short"],
+  ["overlap_pixels", "of overlapping elements"],
+];
+
+/**
+ * What the counts say of pixels that may be wrong.
+ * @param {Json} counts
+ * @returns {string[]}
+ */
+function doubtsOf(counts) {
+  const words = doubts.filter(([name]) => counts[name] > 0).map(([name, text]) => `${counts[name]} ${text}`);
+  return words.length > 0 ? words : ["0 undecided"];
+}
+
 /** @param {Json} facts */
 function showFrame(facts) {
   frame = facts;
@@ -82,7 +103,7 @@ function showFrame(facts) {
   document.body.dataset.stage = facts.stage;
   document.body.dataset.revision = facts.revision;
   const counts = facts.counts ?? {};
-  const words = facts.stage === "exact" ? [`${counts.undecided_pixels ?? 0} undecided`] : [];
+  const words = facts.stage === "exact" ? doubtsOf(counts) : [];
   $("counts").textContent = [`${facts.size[0]} x ${facts.size[1]}`, ...words].join(", ");
   $("counts").title = (facts.remarks ?? []).map((/** @type {Json} */ remark) => remark.text).join("\n");
   if (facts.stage === "exact" && $("undecided").checked) {
