@@ -12,6 +12,8 @@ namespace elvis {
 namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/** Three coordinates a point. */
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /** Points that only check. */
 constexpr std::size_t n_checks = 12;
@@ -81,38 +83,27 @@ FaceFit::Shape FaceFit::make_shape(bool is_triangle) const {
     const auto rows = static_cast<Eigen::Index>(n);
     const Matrix inverse = vandermonde.topRows(rows).fullPivLu().inverse();
     Matrix matrix = Matrix::Zero(static_cast<Eigen::Index>(n_coefficients), rows);
-    Matrix checks = Matrix::Zero(static_cast<Eigen::Index>(m_n_points - n), static_cast<Eigen::Index>(n_coefficients));
+    Matrix values = Matrix::Zero(static_cast<Eigen::Index>(m_n_points), static_cast<Eigen::Index>(n_coefficients));
     for (std::size_t term = 0; term < n; ++term) {
         matrix.row(static_cast<Eigen::Index>(place[term])) = inverse.row(static_cast<Eigen::Index>(term));
-        checks.col(static_cast<Eigen::Index>(place[term])) =
-            vandermonde.col(static_cast<Eigen::Index>(term)).bottomRows(checks.rows());
+        values.col(static_cast<Eigen::Index>(place[term])) = vandermonde.col(static_cast<Eigen::Index>(term));
     }
-    return {n, {matrix.data(), matrix.data() + matrix.size()}, {checks.data(), checks.data() + checks.size()}};
+    return {n, {matrix.data(), matrix.data() + matrix.size()}, {values.data(), values.data() + values.size()}};
 }
 
 double FaceFit::fit(bool is_triangle, std::span<const double> positions, std::span<double> coefficients) const {
     const Shape& shape = m_shapes[is_triangle ? 1 : 0];
-    const std::size_t n_coefficients = this->n_coefficients();
-    const auto multiply = [](const double* row, const double* vectors, std::size_t n, double* sum) {
-        sum[0] = sum[1] = sum[2] = 0;
-        for (std::size_t k = 0; k < n; ++k) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                sum[axis] += row[k] * vectors[3 * k + axis];
-            }
-        }
-    };
-    for (std::size_t c = 0; c < n_coefficients; ++c) {
-        multiply(&shape.matrix[c * shape.n_interpolated], positions.data(), shape.n_interpolated, &coefficients[3 * c]);
-    }
-    double misfit = 0;
-    for (std::size_t k = shape.n_interpolated; k < m_n_points; ++k) {
-        double point[3];
-        multiply(&shape.checks[(k - shape.n_interpolated) * n_coefficients], coefficients.data(), n_coefficients, point);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            misfit = std::max(misfit, std::abs(point[axis] - positions[3 * k + axis]));
-        }
-    }
-    return misfit;
+    const std::size_t n = shape.n_interpolated;
+    const auto stride = static_cast<Eigen::Index>(n_coefficients());
+    const Eigen::Map<const Matrix> matrix(shape.matrix.data(), stride, static_cast<Eigen::Index>(n));
+    const Eigen::Map<const Matrix> values(shape.values.data(), static_cast<Eigen::Index>(m_n_points), stride);
+    const Eigen::Map<const Points> given(positions.data(), static_cast<Eigen::Index>(m_n_points), 3);
+    Eigen::Map<Points> fitted(coefficients.data(), stride, 3);
+    const auto first = static_cast<Eigen::Index>(n);
+    fitted = matrix * given.topRows(first);
+    fitted += matrix * (given.topRows(first) - values.topRows(first) * fitted);
+    const Eigen::Index n_others = values.rows() - first;
+    return (given.bottomRows(n_others) - values.bottomRows(n_others) * fitted).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
 }
 
 } // namespace elvis

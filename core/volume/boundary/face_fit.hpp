@@ -26,15 +26,16 @@ public:
 
     /**
      * From three coordinates a point the coefficients of T_i(u) T_j(v), three numbers each, i fastest. Returns the largest
-     * difference of a coordinate at the points that the polynomial need not go through.
+     * difference of a coordinate at the points that the polynomial need not go through. Coefficients are refined once
+     * by what they leave at the points: the matrix of triangles has a condition of 5e2 (order 4) to 3e7 (order 10).
      */
     double fit(bool is_triangle, std::span<const double> positions, std::span<double> coefficients) const;
 
 private:
     struct Shape {
         std::size_t n_interpolated = 0;
-        /** Coefficients from positions, and positions at the other points from coefficients; row by row. */
-        std::vector<double> matrix, checks;
+        /** Coefficients from positions at the first points, and positions at all points from coefficients; row by row. */
+        std::vector<double> matrix, values;
     };
     Shape make_shape(bool is_triangle) const;
 
