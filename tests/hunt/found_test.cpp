@@ -5,6 +5,7 @@
 
 #include <tests/support/test_volumes.hpp>
 
+#include <core/oracle/isosurface/isosurface.hpp>
 #include <core/oracle/samples/exact_volumes.hpp>
 #include <core/oracle/samples/meshes.hpp>
 #include <core/render/renderer.hpp>
@@ -397,6 +398,35 @@ TEST_CASE("The adaptive rule misses no narrow peak in a field of high order") {
     CHECK(tally.pixels == 60 * 45);
     // Was 1 in 100 with three samples an element.
     CHECK(tally.far + tally.near == 0);
+}
+
+TEST_CASE("Where the oracle says that a ray meets a face, it does") {
+    // It nearly touches the face of a bent tetrahedron: Newton's steps come to no end there, and are no crossing.
+    const TemporaryFile file("grazed.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "waves", "shape": "tetrahedron", "elements": [3, 2, 3], "geometry_order": 4,
+                       "order": 5, "field": "polynomial"})",
+                     file.path());
+    oracle::SceneVolume volume(file.path(), {});
+    const oracle::Model& model = volume.model(0, 0);
+    const oracle::SegmentFinder finder(model);
+    oracle::Inverter inverter(model.volume, model.enclosures);
+    Camera camera;
+    camera.eye = {-1.6649923697999451, 0.6882894652222804, -0.9160261876206469};
+    camera.look_at = {0.08660089320246946, -0.1752880072009896, -0.06854768145518876};
+    camera.up = {0.44220106553518296, 0.8969159479235213, 0.0};
+    camera.field_of_view = 44.083790000905;
+    const oracle::Line line = oracle::line_of(oracle::pixel_ray(camera, 800, 600, 56, 299));
+    std::size_t n_crossings = 0;
+    for (std::size_t element = 0; element < model.volume.n_elements(); ++element)
+        for (std::size_t constraint = 0; constraint < 4; ++constraint)
+            for (const double t : finder.crossings(element, constraint, line)) {
+                const std::vector<oracle::Solution> found = inverter.find(element, line.at(t), 1e-9);
+                CAPTURE(element, constraint, t);
+                REQUIRE(found.size() == 1);
+                CHECK(std::abs(found[0].excess) < 1e-9);
+                ++n_crossings;
+            }
+    CHECK(n_crossings > 10);
 }
 
 } // namespace elvis::hunt

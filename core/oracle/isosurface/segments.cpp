@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 namespace elvis::oracle {
@@ -135,11 +136,12 @@ double nonlinearity(const SeenPatch& patch, const Matrix2& to_unit) {
     return (off[0] + off[1]).maxCoeff();
 }
 
-// Distance at which the line meets a patch that it sees one to one; NaN if it does not.
-double meet(const SeenPatch& patch, const Matrix2& to_unit) {
+// Distance at which the line meets a patch that it sees one to one; NaN if it does not, nothing if the steps come to no end.
+std::optional<double> meet(const SeenPatch& patch, const Matrix2& to_unit) {
     Vector2 uv = Vector2::Constant(0.5);
     Vector x, along_u, along_v;
-    for (int turn = 0; turn < 60; ++turn) {
+    bool is_done = false;
+    for (int turn = 0; turn < 60 && !is_done; ++turn) {
         x = patch.evaluate(uv.x(), uv.y(), &along_u, &along_v);
         Matrix2 slope;
         slope << along_u.head<2>(), along_v.head<2>();
@@ -151,9 +153,11 @@ double meet(const SeenPatch& patch, const Matrix2& to_unit) {
         // Far beyond the patch there is nothing to find, and the bounds do not hold.
         if (uv.cwiseAbs().maxCoeff() > 3)
             return std::numeric_limits<double>::quiet_NaN();
-        if (step.cwiseAbs().maxCoeff() < 1e-14)
-            break;
+        is_done = step.cwiseAbs().maxCoeff() < 1e-14;
     }
+    // Some steps of rounding remain where the line nearly touches the patch.
+    if (!is_done && x.head<2>().norm() > 1e-9 * mean_slope(patch).norm())
+        return std::nullopt;
     const double excess = (uv - Vector2::Constant(0.5)).cwiseAbs().maxCoeff() - 0.5;
     return excess <= 1e-11 ? patch.evaluate(uv.x(), uv.y(), &along_u, &along_v).z() : std::numeric_limits<double>::quiet_NaN();
 }
@@ -242,10 +246,11 @@ void SegmentFinder::cross(const Face& face, const Line& line, double scale, std:
             if (!may_meet(patch, to_unit, 1e-10))
                 continue;
             if (nonlinearity(patch, to_unit) < 0.7) {
-                const double t = meet(patch, to_unit);
-                if (!std::isnan(t))
-                    crossings.push_back(t);
-                continue;
+                if (const std::optional<double> t = meet(patch, to_unit)) {
+                    if (!std::isnan(*t))
+                        crossings.push_back(*t);
+                    continue;
+                }
             }
         }
         std::array<double, 2> extent{};
