@@ -60,10 +60,12 @@ native::Description describe(const elvis_arrays& arrays) {
 }
 
 /** Describes a class; returns its geometry's coefficients. */
-std::vector<double> add_class(const elvis_array_class& given, std::uint32_t index, native::Description& description) {
+std::vector<double> add_class(const elvis_array_class& given, std::uint32_t index, bool may_be_empty,
+                              native::Description& description) {
     const std::string what = "class " + std::to_string(index);
-    need(given.geometry, what.c_str());
-    if (given.n_elements == 0) {
+    if (given.n_elements > 0) {
+        need(given.geometry, what.c_str());
+    } else if (!may_be_empty) {
         throw InvalidArgument(what, "has no elements");
     }
     const ToModes to_modes(known_part(given.geometry_space, what.c_str()), given.shape, what);
@@ -140,31 +142,34 @@ void ToModes::apply(std::span<const double> numbers, std::span<double> coefficie
         m_from_nodes->solve(Eigen::Map<const Eigen::MatrixXd>(numbers.data(), n, n_rows));
 }
 
-Arrays::Arrays(const elvis_arrays& arrays, const std::string& name, const TaskControl& control) {
+ArrayContents::ArrayContents(const elvis_arrays& arrays, bool may_be_empty) {
     check_counts(arrays);
-    native::Description description = describe(arrays);
-    std::vector<elvis_array_class> classes;
-    std::vector<std::vector<double>> geometry;
+    description = describe(arrays);
     for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
         classes.push_back(copy_entry(arrays.classes, index));
-        geometry.push_back(add_class(classes.back(), index, description));
+        geometry.push_back(add_class(classes.back(), index, may_be_empty, description));
     }
-    std::vector<elvis_array_field> fields;
     for (std::uint32_t index = 0; index < arrays.n_fields; ++index) {
         fields.push_back(copy_entry(arrays.fields, index));
-        m_fields.push_back(add_field(fields.back(), index, classes, description));
+        to_modes.push_back(add_field(fields.back(), index, classes, description));
     }
-    std::vector<native::Face> faces = faces_of_mesh(description, geometry, classes, name, control);
+}
+
+Arrays::Arrays(const elvis_arrays& arrays, const std::string& name, const TaskControl& control) {
+    ArrayContents contents(arrays);
+    native::Description& description = contents.description;
+    std::vector<native::Face> faces = faces_of_mesh(description, contents.geometry, contents.classes, name, control);
     description.n_faces = faces.size();
+    m_fields = std::move(contents.to_modes);
     m_volume = std::make_shared<native::ArrayVolume>(std::move(description), std::move(faces));
     for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
-        std::ranges::copy(geometry[index], m_volume->geometry(index).begin());
+        std::ranges::copy(contents.geometry[index], m_volume->geometry(index).begin());
     }
     for (std::uint32_t field = 0; field < arrays.n_fields; ++field) {
         for (std::uint32_t step = 0; step < m_volume->description().times.size(); ++step) {
             for (std::uint32_t index = 0; index < arrays.n_classes; ++index) {
                 control.check();
-                update(field, step, index, values_of(fields[field], step * std::size_t{arrays.n_classes} + index));
+                update(field, step, index, values_of(contents.fields[field], step * std::size_t{arrays.n_classes} + index));
             }
         }
     }

@@ -37,6 +37,22 @@ private:
     std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> m_from_nodes;
 };
 
+/** What a program's arrays hold: all but fields' values and faces. */
+struct ArrayContents {
+    /** Throws InvalidArgument. Classes without elements are an error unless they may be there. */
+    explicit ArrayContents(const elvis_arrays& arrays, bool may_be_empty = false);
+
+    /** Without faces. */
+    native::Description description;
+    /** As the caller has them. */
+    std::vector<elvis_array_class> classes;
+    std::vector<elvis_array_field> fields;
+    /** Coefficients, by class. */
+    std::vector<std::vector<double>> geometry;
+    /** How values of fields become coefficients, by field and class. */
+    std::vector<std::vector<ToModes>> to_modes;
+};
+
 /** A volume in arrays, and how values become coefficients. */
 class Arrays {
 public:

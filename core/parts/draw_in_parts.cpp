@@ -2,20 +2,21 @@
 
 #include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
+#include <core/base/milliseconds.hpp>
+#include <core/base/peak_memory.hpp>
 #include <core/expression/expression.hpp>
+#include <core/parts/all_boxes.hpp>
+#include <core/parts/drawn_part.hpp>
 #include <core/parts/fold.hpp>
 #include <core/parts/part_picture.hpp>
 #include <core/parts/part_volume.hpp>
-#include <core/parts/partition.hpp>
 #include <core/parts/whole_ranges.hpp>
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
-#include <core/session/warped.hpp>
-
-#include <sys/resource.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -28,61 +29,6 @@
 namespace elvis {
 
 namespace {
-
-/** Of the diagonal: boxes that are so close belong to elements that may share a point, whatever is rounded. */
-constexpr double close_by = 1e-6;
-/** Elements whose bounds are read at once. */
-constexpr std::uint64_t elements_at_once = 16384;
-
-/** Six numbers an element. */
-std::vector<double> boxes_of(const RuntimeVolume& volume, const Span& elements, const TaskControl* control) {
-    std::vector<double> boxes(6 * elements.size());
-    for (std::uint64_t done = 0; done < elements.size(); done += elements_at_once) {
-        if (control != nullptr) {
-            control->check();
-        }
-        const std::uint64_t count = std::min(elements_at_once, elements.size() - done);
-        volume.bounds(elements.first + done, count, std::span(boxes).subspan(6 * done, 6 * count));
-    }
-    return boxes;
-}
-
-/** Whether elements are some of a part's own, by their numbers. */
-class OwnNumbers {
-public:
-    OwnNumbers(const RuntimeVolume& whole, const Span& elements) : m_numbers(elements.size()) {
-        whole.element_numbers(elements.first, elements.size(), m_numbers);
-        std::ranges::sort(m_numbers);
-    }
-    bool hold(std::int64_t number) const { return std::ranges::binary_search(m_numbers, number); }
-
-private:
-    std::vector<std::int64_t> m_numbers;
-};
-
-/** A part that holds elements. */
-struct DrawnPart {
-    DrawnPart(std::uint32_t which, OwnNumbers numbers, RuntimeVolume opened, const Device& device, Precision precision,
-              const TaskControl* control, const std::array<double, 6>& bounds)
-        : part(which), own(std::move(numbers)), volume(std::move(opened)),
-          renderer(device, volume, precision, control, bounds) {}
-
-    std::uint32_t part;
-    OwnNumbers own;
-    RuntimeVolume volume;
-    Renderer renderer;
-};
-
-/** A part without the elements around it. */
-struct BarePart {
-    BarePart(std::uint32_t which, RuntimeVolume opened, const Device& device, Precision precision, const TaskControl* control,
-             const std::array<double, 6>& bounds)
-        : part(which), volume(std::move(opened)), renderer(device, volume, precision, control, bounds) {}
-
-    std::uint32_t part;
-    RuntimeVolume volume;
-    Renderer renderer;
-};
 
 std::uint64_t device_bytes(const Renderer& renderer) {
     const RendererMemory memory = renderer.memory();
@@ -142,12 +88,6 @@ void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
     }
 }
 
-std::uint64_t peak_memory() {
-    rusage usage{};
-    constexpr std::uint64_t kibibyte = 1024;
-    return ::getrusage(RUSAGE_SELF, &usage) == 0 ? kibibyte * static_cast<std::uint64_t>(usage.ru_maxrss) : 0;
-}
-
 /** As in pictures of the whole: of two surfaces at the same depth the first one is seen. */
 std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     std::vector<std::size_t> order(surfaces.size());
@@ -171,57 +111,45 @@ struct VolumeInParts::Impl {
     const RuntimeVolume& whole;
     const Device& device;
     Precision precision;
-    std::uint32_t n_parts;
+    Partition partition;
     Team& team;
     const TaskControl* control;
     std::vector<double> boxes{};
-    std::vector<std::unique_ptr<DrawnPart>> parts{};
+    std::vector<DrawnPart> parts{};
     /** Of the same parts; there when light is first wanted. */
-    std::vector<std::unique_ptr<BarePart>> bare_parts{};
+    std::vector<BarePart> bare_parts{};
     std::vector<Renderer*> renderers{};
     std::unique_ptr<WholeRanges> ranges{};
     PartsWork work{};
 
-    Span own_parts() const { return share(n_parts, team.size(), team.rank()); }
-    Span elements_of(std::uint64_t part) const { return share(whole.n_elements(), n_parts, static_cast<std::uint32_t>(part)); }
-    void read_boxes();
-    RuntimeVolume opened(std::span<const std::uint64_t> elements) const;
+    std::unique_ptr<DrawnElements> opened(std::span<const std::uint64_t> elements, const std::array<double, 6>& bounds) const;
     void open_part(std::uint32_t part, const std::array<double, 6>& bounds);
     void open_bare_parts();
     void share_ranges(const FrameRequest& request);
     std::vector<std::byte> draw_own(const FrameRequest& request);
     std::vector<std::byte> draw_own_light(const FrameRequest& request, std::vector<double> depths);
     Frame draw_surfaces(const FrameRequest& request);
-    void draw_light(const FrameRequest& request, Frame& frame);
+    void draw_light(const FrameRequest& request, PartsPicture& picture);
     std::vector<PartsWork> work_of_all();
 };
 
-void VolumeInParts::Impl::read_boxes() {
-    const Span own = own_parts();
-    const Span elements{elements_of(own.first).first, elements_of(own.end).first};
-    boxes = team.joined(boxes_of(whole, elements, control));
-}
-
-RuntimeVolume VolumeInParts::Impl::opened(std::span<const std::uint64_t> elements) const {
-    return serve_native(std::make_shared<const PartVolume>(source, by_class(whole, elements)), whole.path(), control);
+std::unique_ptr<DrawnElements> VolumeInParts::Impl::opened(std::span<const std::uint64_t> elements,
+                                                           const std::array<double, 6>& bounds) const {
+    auto volume = std::make_shared<const PartVolume>(source, by_class(whole, elements));
+    return std::make_unique<DrawnElements>(std::move(volume), whole.path(), device, precision, control, bounds);
 }
 
 void VolumeInParts::Impl::open_bare_parts() {
     for (std::size_t index = bare_parts.size(); index < parts.size(); ++index) {
-        const std::uint32_t part = parts[index]->part;
-        const Span own = elements_of(part);
-        std::vector<std::uint64_t> elements(own.size());
-        std::iota(elements.begin(), elements.end(), own.first);
-        bare_parts.push_back(std::make_unique<BarePart>(part, opened(elements), device, precision, control, ranges->bounds()));
+        const std::uint32_t part = parts[index].part;
+        bare_parts.push_back({part, opened(partition.elements(part), ranges->bounds())});
     }
 }
 
 void VolumeInParts::Impl::open_part(std::uint32_t part, const std::array<double, 6>& bounds) {
-    const Span own = elements_of(part);
-    const std::vector<std::uint64_t> elements = with_surroundings(boxes, own, close_by * diagonal_of(bounds));
-    parts.push_back(
-        std::make_unique<DrawnPart>(part, OwnNumbers(whole, own), opened(elements), device, precision, control, bounds));
-    renderers.push_back(&parts.back()->renderer);
+    const std::vector<std::uint64_t> own = partition.elements(part), elements = with_surroundings(boxes, own);
+    parts.push_back({part, OwnNumbers(whole, partition.runs(part)), opened(elements, bounds)});
+    renderers.push_back(&parts.back().elements->renderer());
     ++work.n_parts;
     work.n_own_elements += own.size();
     work.n_elements += elements.size();
@@ -234,19 +162,19 @@ void VolumeInParts::Impl::share_ranges(const FrameRequest& request) {
         for (Renderer* const renderer : renderers) {
             renderer->ranges().set_components(field, request.time_step, all);
         }
-        for (const std::unique_ptr<BarePart>& part : bare_parts) {
-            part->renderer.ranges().set_components(field, request.time_step, all);
+        for (const BarePart& part : bare_parts) {
+            part.elements->renderer().ranges().set_components(field, request.time_step, all);
         }
     }
 }
 
 std::vector<std::byte> VolumeInParts::Impl::draw_own(const FrameRequest& request) {
     std::vector<std::byte> bytes;
-    for (const std::unique_ptr<DrawnPart>& part : parts) {
-        std::array<Renderer*, 1> alone{&part->renderer};
+    for (const DrawnPart& part : parts) {
+        std::array<Renderer*, 1> alone{&part.elements->renderer()};
         Frame frame = render_in_bands(alone, request, control);
-        const auto is_own = [&](std::int64_t number) { return part->own.hold(number); };
-        pack(part_picture(part->part, std::move(frame), is_own), bytes);
+        const auto is_own = [&](std::int64_t number) { return part.own.hold(number); };
+        pack(part_picture(part.part, std::move(frame), is_own), bytes);
     }
     work.picture_bytes += bytes.size();
     return bytes;
@@ -259,11 +187,12 @@ std::vector<std::byte> VolumeInParts::Impl::draw_own_light(const FrameRequest& r
     light.with_buffers = false;
     light.hidden_from = std::make_shared<const std::vector<double>>(std::move(depths));
     std::vector<std::byte> bytes;
-    for (const std::unique_ptr<BarePart>& part : bare_parts) {
-        if (part->renderer.most_pixels(light) < std::uint64_t{light.width} * light.height) {
+    for (const BarePart& part : bare_parts) {
+        Renderer& renderer = part.elements->renderer();
+        if (renderer.most_pixels(light) < std::uint64_t{light.width} * light.height) {
             throw Error("image", "a picture of so many pixels of the volume itself cannot be drawn in parts on this device");
         }
-        pack(part_picture(part->part, part->renderer.render(light, control), {}), bytes);
+        pack(part_picture(part.part, renderer.render(light, control), {}), bytes);
     }
     work.picture_bytes += bytes.size();
     return bytes;
@@ -286,25 +215,31 @@ Frame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request) {
     return picture;
 }
 
-void VolumeInParts::Impl::draw_light(const FrameRequest& request, Frame& frame) {
+void VolumeInParts::Impl::draw_light(const FrameRequest& request, PartsPicture& picture) {
+    Frame& frame = picture.still.frame;
     std::vector<double> depths = frame.depth;
     std::ranges::replace_if(
         depths, [](double depth) { return std::isnan(depth); }, std::numeric_limits<double>::infinity());
     depths = team.of_first(std::move(depths));
     const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own_light(request, std::move(depths))));
     if (team.is_first()) {
+        for (const PartPicture& part : pictures) {
+            picture.n_runs += part.facts.runs.size();
+        }
+        const auto start = std::chrono::steady_clock::now();
         add_light(request, pictures, diagonal_of(ranges->bounds()), frame);
+        picture.fold_milliseconds = milliseconds_since(start);
     }
 }
 
 std::vector<PartsWork> VolumeInParts::Impl::work_of_all() {
     work.rank = team.rank();
     work.device_bytes = 0;
-    for (const std::unique_ptr<DrawnPart>& part : parts) {
-        work.device_bytes += device_bytes(part->renderer);
+    for (const DrawnPart& part : parts) {
+        work.device_bytes += device_bytes(part.elements->renderer());
     }
-    for (const std::unique_ptr<BarePart>& part : bare_parts) {
-        work.device_bytes += device_bytes(part->renderer);
+    for (const BarePart& part : bare_parts) {
+        work.device_bytes += device_bytes(part.elements->renderer());
     }
     work.peak_memory_bytes = peak_memory();
     const auto own = std::as_bytes(std::span(&work, 1));
@@ -316,22 +251,34 @@ std::vector<PartsWork> VolumeInParts::Impl::work_of_all() {
 }
 
 VolumeInParts::VolumeInParts(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole,
-                             const Device& device, Precision precision, std::uint32_t n_parts, Team& team,
-                             const TaskControl* control)
-    : m_impl(new Impl{std::move(source), whole, device, precision, n_parts, team, control}) {
+                             const Device& device, Precision precision, Partition partition, Team& team,
+                             const TaskControl* control, MappingReader mapping)
+    : m_impl(new Impl{std::move(source), whole, device, precision, std::move(partition), team, control}) {
     Impl& impl = *m_impl;
-    impl.read_boxes();
+    impl.boxes = all_boxes(whole, impl.partition, team, control);
     const std::array<double, 6> bounds = box_around(impl.boxes);
-    const Span own = impl.own_parts();
+    const Span own = own_parts(impl.partition, team);
     for (std::uint64_t part = own.first; part < own.end; ++part) {
-        if (impl.elements_of(part).size() > 0) {
+        if (impl.partition.n_elements(part) > 0) {
             impl.open_part(static_cast<std::uint32_t>(part), bounds);
         }
     }
-    impl.ranges = std::make_unique<WholeRanges>(whole, *impl.source, impl.boxes, impl.renderers, team);
+    impl.ranges = std::make_unique<WholeRanges>(whole, *impl.source, impl.boxes, impl.renderers, team, std::move(mapping));
 }
 
 VolumeInParts::~VolumeInParts() = default;
+
+const PartsWork& VolumeInParts::own_work() const { return m_impl->work; }
+
+void VolumeInParts::forget_fields(std::span<const std::uint32_t> fields) {
+    for (const DrawnPart& part : m_impl->parts) {
+        part.elements->forget_fields(fields);
+    }
+    for (const BarePart& part : m_impl->bare_parts) {
+        part.elements->forget_fields(fields);
+    }
+    m_impl->ranges->forget_fields();
+}
 
 PartsPicture VolumeInParts::draw(const Scene& scene) {
     Impl& impl = *m_impl;
@@ -349,7 +296,7 @@ PartsPicture VolumeInParts::draw(const Scene& scene) {
     impl.work.picture_bytes = 0;
     picture.still.frame = impl.draw_surfaces(request);
     if (request.volume) {
-        impl.draw_light(request, picture.still.frame);
+        impl.draw_light(request, picture);
     }
     picture.work = impl.work_of_all();
     if (impl.team.is_first()) {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/parts/partition.hpp>
 #include <core/parts/team.hpp>
+#include <core/parts/whole_ranges.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/scene/scene.hpp>
 #include <core/session/still_picture.hpp>
@@ -15,6 +17,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -35,6 +38,9 @@ struct PartsPicture {
     StillPicture still;
     /** By rank; on the first alone. */
     std::vector<PartsWork> work;
+    /** Of light: runs of all parts, and how long the first process took to put them together. */
+    std::uint64_t n_runs = 0;
+    double fold_milliseconds = 0;
 };
 
 /**
@@ -46,16 +52,23 @@ class VolumeInParts {
 public:
     /**
      * `whole` serves `source`: of it is read what is written down of the structure, and bounds of own elements. All must
-     * outlive it. Called by all members of the team, as is draw().
+     * outlive it. `mapping`: see WholeRanges. Called by all members of the team, as are all functions.
      */
     VolumeInParts(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole, const Device& device,
-                  Precision precision, std::uint32_t n_parts, Team& team, const TaskControl* control = nullptr);
+                  Precision precision, Partition partition, Team& team, const TaskControl* control = nullptr,
+                  MappingReader mapping = {});
     ~VolumeInParts();
     VolumeInParts(const VolumeInParts&) = delete;
     VolumeInParts& operator=(const VolumeInParts&) = delete;
 
     /** Throws Error for what cannot be drawn in parts (need_parts_can_draw). */
     PartsPicture draw(const Scene& scene);
+
+    /** What this process had of the last picture. */
+    const PartsWork& own_work() const;
+
+    /** Values of these fields have changed; the mesh stays on the device. */
+    void forget_fields(std::span<const std::uint32_t> fields);
 
 private:
     struct Impl;

@@ -1,5 +1,6 @@
 #include <core/parts/partition.hpp>
 
+#include <core/base/bounds.hpp>
 #include <core/hierarchy/hierarchy.hpp>
 
 #include <algorithm>
@@ -12,6 +13,9 @@ namespace elvis {
 namespace {
 
 using Box = std::array<double, 6>;
+
+/** Of the diagonal: boxes that are so close belong to elements that may share a point, whatever is rounded. */
+constexpr double close_by = 1e-6;
 
 Box wider(std::span<const double> box, double tolerance) {
     Box result{};
@@ -52,15 +56,51 @@ bool meets_any(const Box& box, const Hierarchy& tree) {
 
 } // namespace
 
-std::vector<std::uint64_t> with_surroundings(std::span<const double> boxes, const Span& part, double tolerance) {
-    if (part.size() == 0) {
+Partition Partition::in_shares(std::uint64_t n_elements, std::uint32_t n_parts) {
+    std::vector<std::vector<Span>> parts(n_parts);
+    for (std::uint32_t part = 0; part < n_parts; ++part) {
+        if (const Span own = share(n_elements, n_parts, part); own.size() > 0) {
+            parts[part] = {own};
+        }
+    }
+    return Partition(std::move(parts));
+}
+
+std::uint64_t Partition::n_elements(std::uint64_t part) const {
+    std::uint64_t n = 0;
+    for (const Span& run : m_parts[part]) {
+        n += run.size();
+    }
+    return n;
+}
+
+std::vector<std::uint64_t> Partition::elements(std::uint64_t part) const {
+    std::vector<std::uint64_t> all;
+    for (const Span& run : m_parts[part]) {
+        for (std::uint64_t element = run.first; element < run.end; ++element) {
+            all.push_back(element);
+        }
+    }
+    return all;
+}
+
+std::vector<std::uint64_t> with_surroundings(std::span<const double> boxes, std::span<const std::uint64_t> part) {
+    if (part.empty()) {
         return {};
     }
-    const std::span<const double> own = boxes.subspan(6 * part.first, 6 * part.size());
+    const double tolerance = close_by * diagonal_of(box_around(boxes));
+    std::vector<double> own;
+    for (const std::uint64_t element : part) {
+        const auto box = boxes.subspan(6 * element, 6);
+        own.insert(own.end(), box.begin(), box.end());
+    }
     const Hierarchy tree(own, {own[0], own[1], own[2]});
     std::vector<std::uint64_t> elements;
+    auto next = part.begin();
     for (std::uint64_t element = 0; element < boxes.size() / 6; ++element) {
-        if (part.holds(element) || meets_any(wider(boxes.subspan(6 * element, 6), tolerance), tree)) {
+        const bool is_own = next != part.end() && *next == element;
+        next += is_own ? 1 : 0;
+        if (is_own || meets_any(wider(boxes.subspan(6 * element, 6), tolerance), tree)) {
             elements.push_back(element);
         }
     }

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -29,11 +30,28 @@ inline Span share(std::uint64_t n, std::uint32_t n_shares, std::uint32_t index) 
     return {n * index / n_shares, n * (index + 1) / n_shares};
 }
 
+/** Which elements make up which part. Elements are counted class by class. */
+class Partition {
+public:
+    /** Of each part runs of elements, ascending; each element is in one part. A part may have none. */
+    explicit Partition(std::vector<std::vector<Span>> parts) : m_parts(std::move(parts)) {}
+    static Partition in_shares(std::uint64_t n_elements, std::uint32_t n_parts);
+
+    std::uint32_t n_parts() const { return static_cast<std::uint32_t>(m_parts.size()); }
+    std::span<const Span> runs(std::uint64_t part) const { return m_parts[part]; }
+    std::uint64_t n_elements(std::uint64_t part) const;
+    /** Ascending. */
+    std::vector<std::uint64_t> elements(std::uint64_t part) const;
+
+private:
+    std::vector<std::vector<Span>> m_parts;
+};
+
 /**
- * The elements of a part and those around it, ascending: all whose box comes within `tolerance` of the box of an element of
- * the part. `boxes`: six numbers for each element of the volume.
+ * The elements of a part, which ascend, and those around it, ascending: all whose box comes near the box of an element of the
+ * part. `boxes`: six numbers for each element of the volume.
  */
-std::vector<std::uint64_t> with_surroundings(std::span<const double> boxes, const Span& part, double tolerance);
+std::vector<std::uint64_t> with_surroundings(std::span<const double> boxes, std::span<const std::uint64_t> part);
 
 /** Of all these boxes: six numbers each. */
 std::array<double, 6> box_around(std::span<const double> boxes);

@@ -3,7 +3,6 @@
 #include <core/expression/expression.hpp>
 #include <core/parts/partition.hpp>
 #include <core/volume/field/field_extrema.hpp>
-#include <core/volume/outline.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -48,12 +47,13 @@ std::string key_of(const FieldChoice& field) {
 } // namespace
 
 WholeRanges::WholeRanges(const RuntimeVolume& whole, const native::VolumeSource& source, const std::vector<double>& boxes,
-                         std::span<Renderer* const> parts, Team& team)
-    : m_whole(whole), m_source(source), m_boxes(boxes), m_parts(parts), m_team(team), m_bounds(box_around(boxes)) {}
+                         std::span<Renderer* const> parts, Team& team, MappingReader mapping)
+    : m_whole(whole), m_source(source), m_boxes(boxes), m_parts(parts), m_team(team), m_mapping(std::move(mapping)),
+      m_bounds(box_around(boxes)) {}
 
 const std::vector<Vector3>& WholeRanges::outline() {
     if (m_outline.empty()) {
-        m_outline = outline_points(m_whole, m_boxes);
+        m_outline = outline_points(m_whole, m_boxes, m_mapping);
     }
     return m_outline;
 }
@@ -131,6 +131,11 @@ VolumeRanges::Ranges WholeRanges::of_components(std::uint32_t field, std::uint32
         ranges.first.push_back({component.lower, -component.minus_upper});
     }
     return ranges;
+}
+
+void WholeRanges::forget_fields() {
+    m_extrema.clear();
+    m_ranges.clear();
 }
 
 } // namespace elvis

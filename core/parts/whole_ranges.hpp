@@ -8,6 +8,7 @@
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/field/picture_ranges.hpp>
 #include <core/render/renderer.hpp>
+#include <core/volume/outline.hpp>
 
 #include <elvis/native/volume_source.hpp>
 
@@ -29,10 +30,10 @@ class WholeRanges final : public PictureRanges {
 public:
     /**
      * `boxes`: of all elements, six numbers each. `parts`: draw the parts of this member. All must outlive it; of `whole` only
-     * what is far out is read, and what the file says of extrema.
+     * what is far out is read, by `mapping` if there is one, and what the file says of extrema.
      */
     WholeRanges(const RuntimeVolume& whole, const native::VolumeSource& source, const std::vector<double>& boxes,
-                std::span<Renderer* const> parts, Team& team);
+                std::span<Renderer* const> parts, Team& team, MappingReader mapping = {});
 
     const std::array<double, 6>& bounds() const override { return m_bounds; }
     const std::vector<Vector3>& outline() override;
@@ -43,6 +44,9 @@ public:
     /** Of each component of a field over all parts. */
     VolumeRanges::Ranges of_components(std::uint32_t field, std::uint32_t time_step);
 
+    /** Values of fields have changed. */
+    void forget_fields();
+
 private:
     FieldExtrema found_extrema(const FieldChoice& field, std::uint32_t time_step);
     std::pair<FieldRange, elvis_certainty> found_range(const FieldChoice& field, std::uint32_t time_step);
@@ -52,6 +56,7 @@ private:
     const std::vector<double>& m_boxes;
     std::span<Renderer* const> m_parts;
     Team& m_team;
+    MappingReader m_mapping;
     std::array<double, 6> m_bounds{};
     std::vector<Vector3> m_outline;
     /** By field and component, or expression, and time step. */

@@ -38,8 +38,14 @@ std::shared_ptr<const native::VolumeSource> native_source(const std::string& pat
 }
 
 RuntimeVolume serve_native(std::shared_ptr<const native::VolumeSource> source, const std::string& name,
-                           const TaskControl* control) {
-    const auto serve = [&](const elvis_host* host) { return native::serve(host, name, std::move(source)); };
+                           const TaskControl* control, elvis_volume** served) {
+    const auto serve = [&](const elvis_host* host) {
+        elvis_volume* const volume = native::serve(host, name, std::move(source));
+        if (served != nullptr) {
+            *served = volume;
+        }
+        return volume;
+    };
     return {Plugin::of_native(name), name, serve, control};
 }
 

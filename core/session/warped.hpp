@@ -21,9 +21,12 @@ inline constexpr const char* native_plugin_id = "org.elvis.native";
 /** The numbers of a native volume's file. */
 std::shared_ptr<const native::VolumeSource> native_source(const std::string& path);
 
-/** A volume that serves these numbers; `name` stands for it in messages. `control`, if there is one, must outlive it. */
+/**
+ * A volume that serves these numbers; `name` stands for it in messages. `control`, if there is one, must outlive it. `*served`,
+ * if given, is what the native plugin's functions know it by (elvis/native/serve.hpp), as long as the volume lives.
+ */
 RuntimeVolume serve_native(std::shared_ptr<const native::VolumeSource> source, const std::string& name,
-                           const TaskControl* control);
+                           const TaskControl* control, elvis_volume** served = nullptr);
 
 /** Displaced by the fields of that time step. Throws Error for fields that are not there or that are no displacement. */
 std::shared_ptr<const native::VolumeSource> warped_source(std::shared_ptr<const native::VolumeSource> source,

@@ -68,8 +68,8 @@ std::vector<double> points_on_faces(elvis_shape shape, int n) {
 /** The farthest points that are known so far. */
 class Outline {
 public:
-    explicit Outline(const RuntimeVolume& volume)
-        : m_volume(volume), m_directions(all_around()), m_points(m_directions.size()),
+    Outline(const RuntimeVolume& volume, const MappingReader& mapping)
+        : m_volume(volume), m_mapping(mapping), m_directions(all_around()), m_points(m_directions.size()),
           m_reach(m_directions.size(), -std::numeric_limits<double>::infinity()) {
         for (const ClassInfo& info : volume.classes()) {
             m_xi.push_back(points_on_faces(info.shape, info.is_affine ? 2 : volume.n_elements() < few_elements ? 5 : 3));
@@ -101,7 +101,11 @@ public:
     void take_element(std::size_t element_class, std::uint64_t element) {
         const std::vector<double>& xi = m_xi[element_class];
         m_positions.resize(xi.size());
-        m_volume.evaluate_mapping(element, xi, m_positions, {});
+        if (m_mapping) {
+            m_mapping(element, xi, m_positions);
+        } else {
+            m_volume.evaluate_mapping(element, xi, m_positions, {});
+        }
         for (std::size_t at = 0; at < m_positions.size(); at += 3) {
             take({m_positions[at], m_positions[at + 1], m_positions[at + 2]});
         }
@@ -160,6 +164,7 @@ public:
 
 private:
     const RuntimeVolume& m_volume;
+    const MappingReader& m_mapping;
     std::vector<Vector3> m_directions;
     std::vector<Vector3> m_points;
     std::vector<double> m_reach;
@@ -190,8 +195,9 @@ std::vector<Vector3> outline_points(const RuntimeVolume& volume, Background& bac
     return outline_points(volume, all_bounds(volume, background));
 }
 
-std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes) {
-    Outline outline(volume);
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes,
+                                    const MappingReader& mapping) {
+    Outline outline(volume, mapping);
     const std::vector<std::uint64_t> first = outline.first_candidates(boxes);
     if (!volume.has_evaluation()) {
         for (const std::uint64_t element : first) {

@@ -8,6 +8,9 @@
 #include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -18,7 +21,15 @@ namespace elvis {
  * CPU they are corners of the elements' bounds, beyond which nothing is. The background fetches bounds.
  */
 std::vector<Vector3> outline_points(const RuntimeVolume& volume, Background& background);
-/** With bounds that are known: six numbers an element. */
-std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes);
+
+/** Positions of points of an element, as RuntimeVolume::evaluate_mapping gives them. */
+using MappingReader = std::function<void(std::uint64_t element, std::span<const double> xi, std::span<double> positions)>;
+
+/**
+ * With bounds that are known: six numbers an element. `mapping`, if there is one, is asked in place of the volume, for the same
+ * elements in the same order wherever the bounds are the same.
+ */
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes,
+                                    const MappingReader& mapping = {});
 
 } // namespace elvis

@@ -15,7 +15,7 @@ install(TARGETS elvis_native EXPORT ElVisNative ARCHIVE DESTINATION "${CMAKE_INS
 install(EXPORT ElVisNative NAMESPACE ElVis:: DESTINATION "${package_folder}" COMPONENT native)
 
 configure_package_config_file(cmake/ElVisConfig.cmake.in "${CMAKE_CURRENT_BINARY_DIR}/ElVisConfig.cmake"
-                              INSTALL_DESTINATION "${package_folder}" PATH_VARS CMAKE_INSTALL_BINDIR)
+                              INSTALL_DESTINATION "${package_folder}" PATH_VARS CMAKE_INSTALL_BINDIR CMAKE_INSTALL_DATADIR)
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/ElVisConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/ElVisConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/ElVisConfigVersion.cmake"
               cmake/ElVisPlugin.cmake cmake/embed_text.cmake cmake/plugin.map

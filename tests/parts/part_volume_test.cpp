@@ -45,8 +45,8 @@ TEST_CASE("Shares cover all in their order, as equal as can be") {
 TEST_CASE("A part has the bounds, values and numbers that its elements have in the whole") {
     const Stage stage(mixed);
     const RuntimeVolume& whole = stage.volume();
-    const Span own = share(whole.n_elements(), 4, 2);
-    const std::vector<std::uint64_t> elements = with_surroundings(boxes_of(whole), own, 1e-6);
+    const std::vector<std::uint64_t> own = Partition::in_shares(whole.n_elements(), 4).elements(2);
+    const std::vector<std::uint64_t> elements = with_surroundings(boxes_of(whole), own);
     REQUIRE(elements.size() > own.size());
     REQUIRE(elements.size() < whole.n_elements());
     const RuntimeVolume part = open_part(stage, elements);
@@ -74,7 +74,7 @@ TEST_CASE("Elements around a part are all that share a point with it") {
     std::vector<std::int64_t> numbers(whole.n_elements());
     whole.element_numbers(0, numbers.size(), numbers);
     const auto middle = static_cast<std::uint64_t>(std::ranges::find(numbers, 2 + 5 * 2 + 25 * 2) - numbers.begin());
-    const std::vector<std::uint64_t> elements = with_surroundings(boxes_of(whole), {middle, middle + 1}, 1e-6);
+    const std::vector<std::uint64_t> elements = with_surroundings(boxes_of(whole), std::array{middle});
     CHECK(elements.size() == 27);
 }
 

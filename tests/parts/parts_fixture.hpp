@@ -46,7 +46,8 @@ public:
 
     Frame in_parts(const Scene& scene, std::uint32_t n_parts) {
         if (!m_parts || m_n_parts != n_parts) {
-            m_parts = std::make_unique<VolumeInParts>(source(), *m_whole, device(), m_precision, n_parts, m_alone);
+            m_parts = std::make_unique<VolumeInParts>(source(), *m_whole, device(), m_precision,
+                                                      Partition::in_shares(m_whole->n_elements(), n_parts), m_alone);
             m_n_parts = n_parts;
         }
         return m_parts->draw(scene).still.frame;

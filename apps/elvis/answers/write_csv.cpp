@@ -1,5 +1,5 @@
-#include "csv_text.hpp"
 #include "sample_files.hpp"
+#include <core/base/csv_text.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/output_file.hpp>

@@ -82,7 +82,10 @@ std::string stats_of(const PartsPicture& picture, const Device& device, Precisio
                      Clock::time_point start) {
     auto stats = nlohmann::ordered_json::parse(PictureStats(device, precision, picture.still.frame).json());
     stats["milliseconds"]["total"] = milliseconds_since(start);
-    stats["parts"] = {{"count", n_parts}, {"ranks", work_json(picture.work)}};
+    stats["parts"] = {{"count", n_parts},
+                      {"runs", picture.n_runs},
+                      {"fold_milliseconds", picture.fold_milliseconds},
+                      {"ranks", work_json(picture.work)}};
     return stats.dump(2) + "\n";
 }
 
@@ -127,7 +130,8 @@ void render_parts(const RenderArguments& arguments, const scene& shown) {
     scene.volume = volume.whole.path();
     const Precision precision = scene.precision.value_or(Precision::float32);
     const Device device(arguments.device, arguments.validation);
-    VolumeInParts parts(volume.source, volume.whole, device, precision, static_cast<std::uint32_t>(arguments.parts), team,
+    VolumeInParts parts(volume.source, volume.whole, device, precision,
+                        Partition::in_shares(volume.whole.n_elements(), static_cast<std::uint32_t>(arguments.parts)), team,
                         &control);
     const PartsPicture picture = parts.draw(scene);
     if (!team.is_first()) {

@@ -1,10 +1,10 @@
-#include "csv_text.hpp"
+#include <core/base/csv_text.hpp>
 
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace elvis::commands {
+namespace elvis {
 
 std::string csv_name(const std::string& name) {
     if (name.find_first_of(",\"\n") == std::string::npos) {
@@ -26,4 +26,4 @@ void append_csv_number(std::string& row, double number) {
     }
 }
 
-} // namespace elvis::commands
+} // namespace elvis

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace elvis::commands {
+namespace elvis {
 
 /** A name; in quotes if it has commas, quotes or line ends. */
 std::string csv_name(const std::string& name);
@@ -15,4 +15,4 @@ std::string csv_name(const std::string& name);
  */
 void append_csv_number(std::string& row, double number);
 
-} // namespace elvis::commands
+} // namespace elvis
