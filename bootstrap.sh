@@ -14,7 +14,7 @@ packages=(
 python_packages=(python3-dev pybind11-dev python3-numpy)
 mpi_packages=(libopenmpi-dev openmpi-bin)
 test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py python3-matplotlib gmsh libcgns-dev xvfb xdotool imagemagick abigail-tools
-    chromium chromium-driver node-typescript nginx-light)
+    chromium chromium-driver node-typescript nginx-light gfortran)
 
 usage() {
     cat <<'END'

@@ -340,3 +340,19 @@ TEST_CASE("A table goes on where its run was begun before, and is not another's"
     CHECK(errors_of(mesh, 1, plan_of(R"~("quantities": ["step + 1"])~"))[0].find("has other columns") != std::string::npos);
     CHECK(mesh.read("out.csv") == "step,time,step + 0.5\n0,0,0.5\n0,0,0.5\n");
 }
+
+TEST_CASE("The page's plan works, and the page names every key") {
+    const std::string page = read_file(ELVIS_INSITU_PAGE);
+    const auto from = page.find("    {\n      \"version\""), to = page.find("\n    }\n", from);
+    REQUIRE(to != std::string::npos);
+    const Mesh mesh(R"({"generator": 1, "mesh": "box", "elements": 2, "fields": [{"field": "sphere", "name": "u"}]})");
+    mesh.write("alarm.json", R"({"version": 1, "image": {"size": [32, 24]}})");
+    const std::vector<std::string> errors = errors_of(mesh, 2, page.substr(from, to + 6 - from));
+    CHECK(errors == std::vector<std::string>(2));
+    CHECK(names_in(mesh).size() > 6);
+    const auto schema = nlohmann::json::parse(read_file(ELVIS_INSITU_SCHEMA));
+    for (const auto& [key, ignored] : schema["properties"]["outputs"]["items"]["properties"].items()) {
+        INFO(key);
+        CHECK(page.find("`" + key + "`") != std::string::npos);
+    }
+}

@@ -1,5 +1,6 @@
 /* Both public headers of programs and plugins, in one C99 file. */
 #include <elvis/elvis.h>
+#include <elvis/insitu.h>
 #include <elvis/plugin.h>
 #include <elvis/runtime.h>
 
