@@ -207,9 +207,12 @@ public:
             }
         };
         options.user = &m_ranks.table.rank;
-        need(elvis_context_create(&options, &m_context), elvis_context_error(nullptr));
-        need(elvis_insitu_open(m_context, &m_ranks.table, &arrays, plan.c_str(), folder, &m_insitu),
-             elvis_context_error(m_context));
+        if (elvis_context_create(&options, &m_context) != ELVIS_OK) {
+            fail(elvis_context_error(nullptr));
+        }
+        if (elvis_insitu_open(m_context, &m_ranks.table, &arrays, plan.c_str(), folder, &m_insitu) != ELVIS_OK) {
+            fail(elvis_context_error(m_context));
+        }
     }
     ~Insitu() {
         elvis_insitu_release(m_insitu);
@@ -225,19 +228,19 @@ public:
                 m_values[static_cast<std::size_t>(element * n_nodes + node)] = m_solver.value(element, node);
             }
         }
-        need(elvis_insitu_step(m_insitu, step, time), elvis_insitu_error(m_insitu));
+        if (elvis_insitu_step(m_insitu, step, time) != ELVIS_OK) {
+            fail(elvis_insitu_error(m_insitu));
+        }
     }
 
 private:
     /** All ranks fail together, with the same text. */
-    void need(elvis_result result, const char* text) const {
-        if (result != ELVIS_OK) {
-            if (m_ranks.table.rank == 0) {
-                std::fprintf(stderr, "heat: %s\n", text);
-            }
-            MPI_Finalize();
-            std::exit(1);
+    [[noreturn]] void fail(const char* text) const {
+        if (m_ranks.table.rank == 0) {
+            std::fprintf(stderr, "heat: %s\n", text);
         }
+        MPI_Finalize();
+        std::exit(1);
     }
 
     const Solver& m_solver;
