@@ -3,7 +3,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
-# Debian 12 packages. Tools, then libraries, then what the Python package, elvis-mpi and the tests use.
+# Debian 12 packages. Tools, then libraries, then what the Python package, elvis-mpi, the plugin for ParaView and the tests use.
 packages=(
     cmake ninja-build g++ pkg-config
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
@@ -13,6 +13,7 @@ packages=(
 )
 python_packages=(python3-dev pybind11-dev python3-numpy)
 mpi_packages=(libopenmpi-dev openmpi-bin)
+paraview_packages=(paraview-dev python3-paraview libglew-dev)
 test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py python3-matplotlib gmsh libcgns-dev xvfb xdotool imagemagick abigail-tools
     chromium chromium-driver node-typescript nginx-light gfortran)
 
@@ -86,12 +87,12 @@ demo)
     demo
     ;;
 test)
-    install_missing "${packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${test_packages[@]}"
+    install_missing "${packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${paraview_packages[@]}" "${test_packages[@]}"
     build -DELVIS_BUILD_TESTS=ON
     ctest --preset release --parallel "$(nproc)"
     ;;
 build)
-    install_missing "${packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${test_packages[@]}"
+    install_missing "${packages[@]}" "${python_packages[@]}" "${mpi_packages[@]}" "${paraview_packages[@]}" "${test_packages[@]}"
     build -DELVIS_BUILD_TESTS=ON
     ;;
 install)
