@@ -27,6 +27,7 @@ void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, F
     m_frame = &frame;
     if (!m_layer || m_layer->width != request.width || m_layer->height != request.height) {
         m_layer.reset();
+        m_condition_values.reset();
         m_layer = std::make_unique<Layer>(m_device, m_precision, request.width, request.height);
     }
     m_is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through() && !request.volume;
@@ -38,13 +39,25 @@ void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, F
     m_color_pass.begin(request.surfaces.size());
 }
 
-void LayeredPicture::provide(const Surface& surface) { m_color_pass.provide(surface, is_lit(surface)); }
+void LayeredPicture::provide(const Surface& surface) {
+    m_color_pass.provide(surface, is_lit(surface));
+    if (surface.conditions.empty()) {
+        return;
+    }
+    if (!m_condition_pass) {
+        m_condition_pass = std::make_unique<ConditionPass>(m_device, m_precision);
+    }
+    if (!m_condition_values) {
+        m_condition_values = std::make_unique<Layer>(m_device, m_precision, m_layer->width, m_layer->height);
+    }
+}
 
 LayeredPicture::Setting LayeredPicture::setting_of(const SurfaceDrawing& drawing) {
     const Surface& surface = drawing.surface();
     const SurfaceTraits& traits = drawing.traits();
     Setting setting;
-    if ((surface.has_lines() && traits.plane == nullptr) || traits.isosurfaces != nullptr) {
+    const bool wants_places = surface.has_lines() || !surface.conditions.empty();
+    if ((wants_places && traits.plane == nullptr) || traits.isosurfaces != nullptr) {
         setting.places = &provide_buffer(m_places, m_device, m_layer->n_pixels() * place_bytes(m_precision));
     }
     // Edges are nothing behind which much would be hidden from them.
@@ -103,7 +116,16 @@ std::uint32_t LayeredPicture::draw_layer(SurfaceDrawing& drawing, const Setting&
     if (setting.opaque != nullptr) {
         n_hidden += m_occlusion_pass.hide(*m_layer, *setting.opaque);
     }
+    cut_where_conditions_fail(drawing, target);
     return n_hidden;
+}
+
+void LayeredPicture::cut_where_conditions_fail(SurfaceDrawing& drawing, const LayerTarget& target) {
+    for (const Condition& condition : drawing.surface().conditions) {
+        const ConditionLimit limit = drawing.limit_of(condition);
+        drawing.draw_condition(condition, target, *m_condition_values, m_frame->counts);
+        m_condition_pass->judge(*m_layer, *m_condition_values, limit);
+    }
 }
 
 /** Returns where what is behind is wanted. */

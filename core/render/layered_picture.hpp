@@ -46,6 +46,7 @@ private:
     Setting setting_of(const SurfaceDrawing& drawing);
     std::uint32_t draw_layer(SurfaceDrawing& drawing, const Setting& setting, const MergePass::Wanted& wanted,
                              const Buffer* beyond);
+    void cut_where_conditions_fail(SurfaceDrawing& drawing, const LayerTarget& target);
     MergePass::Wanted merge(const SurfaceDrawing& drawing, std::size_t index);
     ViewStart start_of_view() const;
     bool is_lit(const Surface& surface) const { return m_request->lighting.has_value() && surface.is_lit; }
@@ -60,6 +61,9 @@ private:
     std::unique_ptr<Layer> m_layer;
     /** Of the layer's pixels. */
     std::optional<Buffer> m_places;
+    /** Values of conditions' fields, and what judges them: there when a surface has conditions. */
+    std::unique_ptr<Layer> m_condition_values;
+    std::unique_ptr<ConditionPass> m_condition_pass;
     const FrameRequest* m_request = nullptr;
     Frame* m_frame = nullptr;
     /** A single surface that hides what is behind it needs no merging. */

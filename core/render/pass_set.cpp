@@ -38,6 +38,9 @@ void PassSet::keep(const FrameRequest& request) {
         if (const Isosurfaces* isosurfaces = traits_of(surface.geometry).isosurfaces) {
             keep_field(isosurfaces->field);
         }
+        for (const Condition& condition : surface.conditions) {
+            keep_field(condition.field);
+        }
     }
     if (request.volume) {
         keep_field(request.volume->field);

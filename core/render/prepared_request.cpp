@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <utility>
 
 namespace elvis {
 
@@ -37,8 +40,40 @@ void check_surface(const Surface& surface, const RuntimeVolume& volume) {
     }
 }
 
-/** Isosurfaces are found with the digits that differences from their values have. */
-void take_offset(Surface& surface, std::uint32_t time_step, ShownFields& fields) {
+Surface on_isosurface(const Surface& looks, const FieldChoice& field, double value) {
+    Surface surface = looks;
+    Isosurfaces isosurface;
+    isosurface.field = field;
+    isosurface.values = {value};
+    surface.geometry = std::move(isosurface);
+    return surface;
+}
+
+/** What else bounds the part that a surface shows the whole boundary of: where elements are cut. */
+std::vector<Surface> boundary_inside(const Surface& surface, const RuntimeVolume& volume) {
+    std::vector<Surface> inside;
+    if (!traits_of(surface.geometry).is_whole_boundary) {
+        return inside;
+    }
+    if (volume.is_cut()) {
+        FieldChoice own;
+        own.is_own_boundary = true;
+        inside.push_back(on_isosurface(surface, own, 0));
+    }
+    for (std::size_t index = 0; index < surface.conditions.size(); ++index) {
+        const Condition& condition = surface.conditions[index];
+        inside.push_back(on_isosurface(surface, condition.field, condition.value));
+        // On the surface itself rounding would decide.
+        inside.back().conditions.erase(inside.back().conditions.begin() + static_cast<std::ptrdiff_t>(index));
+    }
+    return inside;
+}
+
+/** Isosurfaces and conditions have the digits of differences from their values. */
+void take_offsets(Surface& surface, std::uint32_t time_step, ShownFields& fields) {
+    for (Condition& condition : surface.conditions) {
+        condition.field = fields.about(condition.field, condition.value, time_step);
+    }
     if (const Isosurfaces* const asked = traits_of(surface.geometry).isosurfaces) {
         Isosurfaces isosurfaces = *asked;
         const double middle = 0.5 * (isosurfaces.values.front() + isosurfaces.values.back());
@@ -66,29 +101,22 @@ void check_request(const FrameRequest& request, const RuntimeVolume& volume) {
 }
 
 FrameRequest prepared(FrameRequest request, const RuntimeVolume& volume, ShownFields& fields) {
-    for (Surface& surface : request.surfaces) {
-        take_offset(surface, request.time_step, fields);
-    }
-    const std::size_t n_asked = volume.is_cut() ? request.surfaces.size() : 0;
+    const std::size_t n_asked = request.surfaces.size();
     for (std::size_t index = 0; index < n_asked; ++index) {
-        if (traits_of(request.surfaces[index].geometry).is_whole_boundary) {
-            Surface surface = request.surfaces[index];
-            Isosurfaces own;
-            own.field.is_own_boundary = true;
-            own.values = {0};
-            surface.geometry = own;
-            request.surfaces.push_back(std::move(surface));
-        }
+        std::ranges::move(boundary_inside(request.surfaces[index], volume), std::back_inserter(request.surfaces));
+    }
+    for (Surface& surface : request.surfaces) {
+        take_offsets(surface, request.time_step, fields);
     }
     return request;
 }
 
-std::vector<bool> met_as_asked(const FrameRequest& asked, std::vector<bool> is_met) {
+std::vector<bool> met_as_asked(const FrameRequest& asked, const RuntimeVolume& volume, std::vector<bool> is_met) {
     const std::size_t n_asked = asked.surfaces.size();
-    for (std::size_t index = 0, added = n_asked; added < is_met.size(); ++index) {
-        if (traits_of(asked.surfaces[index].geometry).is_whole_boundary) {
+    std::size_t added = n_asked;
+    for (std::size_t index = 0; index < n_asked; ++index) {
+        for (std::size_t n_left = boundary_inside(asked.surfaces[index], volume).size(); n_left > 0; --n_left, ++added) {
             is_met[index] = is_met[index] || is_met[added];
-            ++added;
         }
     }
     is_met.resize(n_asked);

@@ -16,12 +16,12 @@ namespace elvis {
 void check_request(const FrameRequest& request, const RuntimeVolume& volume);
 
 /**
- * With fields less what keeps their digits, and where elements are cut, behind the surfaces that are asked for, the own
- * boundary of elements (elvis_inside) of each that shows the whole boundary.
+ * With fields less what keeps their digits, and behind the surfaces that are asked for, where elements are cut by their own
+ * boundary (elvis_inside) or by conditions, those cuts, for each that shows the whole boundary.
  */
 FrameRequest prepared(FrameRequest request, const RuntimeVolume& volume, ShownFields& fields);
 
 /** `is_met` of the surfaces of a prepared request, for those of the request that it was made of. */
-std::vector<bool> met_as_asked(const FrameRequest& asked, std::vector<bool> is_met);
+std::vector<bool> met_as_asked(const FrameRequest& asked, const RuntimeVolume& volume, std::vector<bool> is_met);
 
 } // namespace elvis

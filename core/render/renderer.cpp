@@ -211,7 +211,7 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
     for (std::size_t index = 0; index < frame.is_met.size(); ++index) {
         frame.is_met[index] = frame.is_met[index] || frame.special_values[index].is_shown;
     }
-    frame.is_met = met_as_asked(asked, std::move(frame.is_met));
+    frame.is_met = met_as_asked(asked, impl.volume, std::move(frame.is_met));
     read_frame(impl.picture.drawn(), impl.data.precision(), facts, request.with_buffers, frame);
     const DeviceWork after = impl.device.work();
     frame.submissions = after.submissions - before.submissions;

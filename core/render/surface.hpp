@@ -141,6 +141,15 @@ struct SurfaceTraits {
 /** What it points to is in `geometry`. */
 SurfaceTraits traits_of(const SurfaceGeometry& geometry);
 
+/** Holds at the points at which a field is above a value, or below it. */
+struct Condition {
+    FieldChoice field{};
+    double value = 0;
+    bool is_above = true;
+    /** Whether it holds where the field takes the value, too. */
+    bool takes_equal = false;
+};
+
 /** How lines on a surface are drawn. */
 struct LineStyle {
     /** In pixels, at least 1: the pixels within half of it of one that meets the line. */
@@ -184,6 +193,11 @@ struct Surface {
     std::uint32_t subdivisions = 5;
     /** Points with a x + b y + c z + d < 0 for any of these are not drawn. */
     std::vector<std::array<double, 4>> clip{};
+    /**
+     * Points of elements at which one of these does not hold are not drawn. The whole boundary is then that of the part in
+     * which all hold: where they cut elements, the surfaces on which their fields take their values belong to it.
+     */
+    std::vector<Condition> conditions{};
     /** In [0, 1]. */
     double opacity = 1;
     /** Of a CutShape: its colour where it lies in no element; without, it is seen through there. */
@@ -192,7 +206,7 @@ struct Surface {
     bool is_lit = true;
 
     /** Whether something behind it can be seen through it. */
-    bool is_see_through() const { return opacity < 1 || !clip.empty(); }
+    bool is_see_through() const { return opacity < 1 || !clip.empty() || !conditions.empty(); }
     bool has_lines() const { return contours.has_value() || mesh_lines.has_value(); }
 };
 

@@ -42,6 +42,14 @@ SurfaceDrawing::SurfaceDrawing(const FrameRequest& request, const Surface& surfa
 
 void SurfaceDrawing::provide() {
     std::visit([this](const auto& kind) { provide(kind); }, m_surface.geometry);
+    for (const Condition& condition : m_surface.conditions) {
+        FieldPasses& passes = m_passes.of(condition.field);
+        if (m_traits.plane != nullptr) {
+            passes.cut_planes(false);
+        } else {
+            passes.point_values();
+        }
+    }
 }
 
 void SurfaceDrawing::draw(const LayerTarget& target, FrameCounts& counts) {
@@ -50,6 +58,26 @@ void SurfaceDrawing::draw(const LayerTarget& target, FrameCounts& counts) {
 
 void SurfaceDrawing::finish(const LayerTarget& target, FrameCounts& counts) {
     std::visit([&](const auto& kind) { finish(kind, target, counts); }, m_surface.geometry);
+}
+
+void SurfaceDrawing::draw_condition(const Condition& condition, const LayerTarget& target, const Layer& values,
+                                    FrameCounts& counts) {
+    m_fields.upload(condition.field, m_request.time_step);
+    const ShownComponent component = m_fields.component(condition.field);
+    FieldPasses& passes = m_passes.of(condition.field);
+    if (m_traits.plane == nullptr) {
+        passes.point_values().draw(component, target, values.samples, counts);
+        return;
+    }
+    // Planes write no places: the same points are found again.
+    values.marks.fill(0);
+    passes.cut_planes(false).draw(m_rays, first, component, {}, {.layer = values, .wants_normals = false}, counts);
+}
+
+ConditionLimit SurfaceDrawing::limit_of(const Condition& condition) {
+    const double offset = m_fields.upload(condition.field, m_request.time_step);
+    return {condition.value - offset, m_fields.value_error(condition.field, m_request.time_step, offset), condition.is_above,
+            condition.takes_equal};
 }
 
 LinePass& SurfaceDrawing::lines_on(const CutShape& shape) {
@@ -125,7 +153,7 @@ void SurfaceDrawing::draw(const Isosurfaces& isosurfaces, const LayerTarget& tar
 void SurfaceDrawing::finish(const Isosurfaces& isosurfaces, const LayerTarget& target, FrameCounts& counts) {
     const IsosurfacePass& pass = m_passes.of(isosurfaces.field).isosurfaces();
     if (m_surface.field != isosurfaces.field) {
-        m_own.point_values().draw(m_component, target, counts);
+        m_own.point_values().draw(m_component, target, target.layer.samples, counts);
     }
     // No quadric: the frame stands for its rows.
     draw_lines(isosurfaces, &pass.bending(), &pass.frame(), target, counts);

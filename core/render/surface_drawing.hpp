@@ -9,6 +9,7 @@
 #include <core/render/lines/edge_pass.hpp>
 #include <core/render/lines/line_request.hpp>
 #include <core/render/pass_set.hpp>
+#include <core/render/picture/condition_pass.hpp>
 
 namespace elvis {
 
@@ -27,6 +28,10 @@ public:
     void draw(const LayerTarget& target, FrameCounts& counts);
     /** What rests on that: lines, colours by another field, and a plane where it lies in no element. */
     void finish(const LayerTarget& target, FrameCounts& counts);
+    /** Of all pixels that show the surface: values of a condition's field, into the samples of `values`. */
+    void draw_condition(const Condition& condition, const LayerTarget& target, const Layer& values, FrameCounts& counts);
+    /** What those values are compared with. */
+    ConditionLimit limit_of(const Condition& condition);
 
     const Surface& surface() const { return m_surface; }
     const SurfaceTraits& traits() const { return m_traits; }

@@ -13,6 +13,7 @@
 #include <core/scene/line_width.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
+#include <core/scene/threshold.hpp>
 
 #include <algorithm>
 #include <array>
@@ -268,6 +269,9 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
 
 std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges) {
     if (scene.surfaces.empty() && (volume.dimension() == 2 || !scene.volume_rendering)) {
+        if (scene.threshold && volume.dimension() == 3 && volume.n_faces() > 0) {
+            return {SceneSurface{BoundaryFaces{}}};
+        }
         std::string label;
         return default_surfaces(scene.camera, volume, ranges, choose_field(scene, volume, scene.field, label), scene.time_step);
     }
@@ -296,6 +300,7 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     if (scene.volume_rendering && scene.volume_rendering->is_shown) {
         request.volume = make_volume_rendering(*scene.volume_rendering, scene, volume, ranges, request.remarks);
     }
+    apply_threshold(scene, volume, request);
     return request;
 }
 

@@ -130,6 +130,9 @@ Scene scene_of(const nlohmann::json& document, const std::string& path) {
     if (root.has("field")) {
         scene.field = root.text("field");
     }
+    if (root.has("threshold")) {
+        scene.threshold = root.text("threshold");
+    }
     if (root.has("precision")) {
         scene.precision = precision_named(root.word("precision"));
     }

@@ -174,6 +174,8 @@ struct Scene {
     std::uint32_t time_step = 0;
     std::optional<SceneWarp> warp;
     std::optional<std::string> field;
+    /** Which part of the volume is shown (threshold.hpp). */
+    std::optional<std::string> threshold;
     std::optional<Precision> precision;
     SceneCamera camera;
     std::array<std::uint32_t, 2> size{1024, 768};

@@ -115,7 +115,8 @@ std::vector<std::string> MissedSurfaces::remarks(const Scene& scene, const Frame
             }
         } else if (!m_is_met[i]) {
             const std::string name = i < shown.size() ? unique_name(scene, surface) : surface_name(surface);
-            remarks.push_back("the " + name + " hits no pixel" + (surface.clip.empty() ? "" : ", or all that does is clipped"));
+            const bool is_cut = !surface.clip.empty() || scene.threshold.has_value();
+            remarks.push_back("the " + name + " hits no pixel" + (is_cut ? ", or all that does is clipped" : ""));
         }
     }
     if (m_volume_is_missed) {

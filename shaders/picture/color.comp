@@ -204,6 +204,7 @@ void main() {
 #endif
     if (is_drawn) {
         shown.value = core_samples[pixel].value;
+        shown.is_seen = (core_marks[pixel].flags & CORE_FLAG_CUT) == 0u;
         shown.is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
 #if CORE_HAS_LINES
         lines = core_lines_at(pixel);
@@ -211,7 +212,7 @@ void main() {
     }
 #if CORE_IS_CLIPPED
     if (is_drawn) {
-        shown.is_seen = !core_is_clipped(pixel, core_samples[pixel].depth);
+        shown.is_seen = shown.is_seen && !core_is_clipped(pixel, core_samples[pixel].depth);
     }
 #endif
     shown.is_nan = !core_is_finite(shown.value) && !shown.is_outside;

@@ -58,6 +58,9 @@ struct core_mark {
 #define CORE_FLAG_RANGE_TOO_FINE 4096u
 #define CORE_FLAG_OVERLAP 8192u
 
+// Of a layer alone: a condition of the surface does not hold there (picture/condition.comp).
+#define CORE_FLAG_CUT 16384u
+
 // Flags of a surface that stay where it is not seen: it may have missed something in front.
 #define CORE_FLAGS_STAY (CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED)
 // Where they stay, apart from those of what is seen.

@@ -100,7 +100,7 @@ const std::vector<std::string>& documents() {
                           "key_frames": [{"frame": 0}, {"frame": 5, "eye": [1.0, 2.0, 3.0], "look_at": [0.0, 1.0, 0.0], "up": [0.0, 0.0, 1.0],
                                                         "field_of_view": 30.0, "height": 2.0}],
                           "frames_a_second": 25.0}})json",
-        R"json({"version": 1, "warp": {"field": "u", "imaginary": "v", "factor": 2.5, "phase": 30.0},
+        R"json({"version": 1, "warp": {"field": "u", "imaginary": "v", "factor": 2.5, "phase": 30.0}, "threshold": "p > 0.2 && x < y",
             "image": {"size": [10, 20], "background": [1.0, 1.0, 1.0, 1.0]},
             "surfaces": [
               {"type": "streamlines", "flow": "curl(u)", "seeds": [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]], "direction": "backward", "length": 3.0,

@@ -49,6 +49,9 @@ void add_surfaces(CLI::App& command, RenderArguments& a) {
                        "Picture to write (PNG), or folder for those of an animation or of several scenes");
     command.add_option("--field", a.field,
                        "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
+    command.add_option(
+        "--threshold", a.threshold,
+        "Show only the part of the volume where this holds: comparisons of expressions, joined by &&: \"p > 0.2\"");
     command.add_option("--cut-plane", a.cut_planes, "a,b,c,d of the plane ax+by+cz+d=0; may be repeated")
         ->allow_extra_args(false);
     command

@@ -317,6 +317,9 @@ void apply_options(const RenderArguments& arguments, scene& shown) {
     if (!arguments.field.empty()) {
         document.set("/field", arguments.field);
     }
+    if (!arguments.threshold.empty()) {
+        document.set("/threshold", arguments.threshold);
+    }
     apply_warp(arguments.warp, document);
     apply_surfaces(arguments, document);
     apply_lines(arguments, document);

@@ -36,6 +36,7 @@ struct RenderArguments {
     double frames_a_second = 0;
     bool resume = false;
     std::string field;
+    std::string threshold;
     std::vector<std::string> cut_planes;
     std::vector<std::string> boundary_groups;
     bool boundary = false;

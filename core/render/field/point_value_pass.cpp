@@ -36,10 +36,11 @@ PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume
     }
 }
 
-void PointValuePass::draw(const ShownComponent& component, const LayerTarget& target, FrameCounts& counts) {
+void PointValuePass::draw(const ShownComponent& component, const LayerTarget& target, const Buffer& samples,
+                          FrameCounts& counts) {
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(target.layer.n_pixels());
-    const std::array<const Buffer*, 4> bindings = {&target.layer.samples, &target.layer.marks, target.places, &m_counts};
+    const std::array<const Buffer*, 4> bindings = {&samples, &target.layer.marks, target.places, &m_counts};
     for (const std::unique_ptr<ComposedKernel>& kernel : m_kernels) {
         in_batches(n_pixels, items_a_dispatch(m_device, pixels_a_dispatch, group_size),
                    [&](std::uint32_t first, std::uint32_t count) {

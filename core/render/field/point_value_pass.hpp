@@ -18,8 +18,9 @@ class PointValuePass {
 public:
     PointValuePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
-    /** For all pixels that show something; `target` has its places. */
-    void draw(const ShownComponent& component, const LayerTarget& target, FrameCounts& counts);
+    /** For all pixels that show something; `target` has its places. Values go into `samples`, of the target's layer or another.
+     */
+    void draw(const ShownComponent& component, const LayerTarget& target, const Buffer& samples, FrameCounts& counts);
 
 private:
     const Device& m_device;

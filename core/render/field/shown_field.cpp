@@ -59,15 +59,15 @@ FieldChoice ShownFields::about(const FieldChoice& field, double value, std::uint
     return result;
 }
 
+bool may_jump(const FieldChoice& field, const RuntimeVolume& volume) {
+    return field.is_own_boundary || (field.expression ? jumps(*field.expression, volume)
+                                                      : volume.fields()[field.field].continuity != ELVIS_CONTINUITY_CONTINUOUS);
+}
+
 ShownComponent ShownFields::component(const FieldChoice& field) const {
-    if (field.is_own_boundary) {
-        return {0, 1, true};
-    }
-    if (field.expression) {
-        return {0, 1, jumps(*field.expression, m_volume)};
-    }
-    const FieldInfo& info = m_volume.fields()[field.field];
-    return {field.component, info.n_components, info.continuity != ELVIS_CONTINUITY_CONTINUOUS};
+    const bool is_scalar = field.is_own_boundary || field.expression;
+    return {is_scalar ? 0 : field.component, is_scalar ? 1 : m_volume.fields()[field.field].n_components,
+            may_jump(field, m_volume)};
 }
 
 } // namespace elvis

@@ -11,6 +11,9 @@
 
 namespace elvis {
 
+/** Whether neighbours may have different values on a face that they share. */
+bool may_jump(const FieldChoice& field, const RuntimeVolume& volume);
+
 class ShownFields {
 public:
     /** All must outlive it. */
@@ -27,6 +30,10 @@ public:
     /** Uploads the field if it is not on the device. Returns what it lacks there. */
     double upload(const FieldChoice& field, std::uint32_t time_step);
     ShownComponent component(const FieldChoice& field) const;
+    /** See VolumeRanges::value_error. */
+    double value_error(const FieldChoice& field, std::uint32_t time_step, double offset) {
+        return m_ranges.value_error(field, time_step, offset);
+    }
 
 private:
     const RuntimeVolume& m_volume;

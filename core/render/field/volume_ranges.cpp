@@ -159,8 +159,13 @@ double VolumeRanges::value_rounding(const FieldChoice& field, std::uint32_t time
             return 0;
         }
     }
-    const double error = float32_error(field, time_step, 0);
-    return is_double && !field.expression ? 0x1p-29 * error : error;
+    return value_error(field, time_step, 0);
+}
+
+double VolumeRanges::value_error(const FieldChoice& field, std::uint32_t time_step, double offset) {
+    const double error = float32_error(field, time_step, offset);
+    // Expressions are sampled in the precision in use.
+    return m_data.precision() == Precision::float64 && !field.expression ? 0x1p-29 * error : error;
 }
 
 } // namespace elvis

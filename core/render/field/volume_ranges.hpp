@@ -49,6 +49,8 @@ public:
      * sampled for an expression.
      */
     double float32_error(const FieldChoice& field, std::uint32_t time_step, double offset);
+    /** The same in the precision in use. */
+    double value_error(const FieldChoice& field, std::uint32_t time_step, double offset);
     /**
      * About what rounding costs its values, to tell whether the range is more than that. 0 for components of fields, which lack
      * the middle of their range on the device, and where the range is certainly more.

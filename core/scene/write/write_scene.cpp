@@ -94,6 +94,7 @@ SceneJson scene_json(const Scene& scene, const std::string& path) {
         json["warp"] = warp_json(*scene.warp);
     }
     set(json, "field", scene.field);
+    set(json, "threshold", scene.threshold);
     if (scene.precision) {
         json["precision"] = name_of(*scene.precision);
     }
