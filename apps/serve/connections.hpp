@@ -50,6 +50,6 @@ using Request = boost::beast::http::request<boost::beast::http::string_body>;
 void start_http(Hall& hall, boost::asio::ip::tcp::socket socket);
 /** Of a request that may have it. */
 void start_web_socket(Hall& hall, Counted counted, boost::beast::tcp_stream stream, const Request& request,
-                      std::shared_ptr<Session> session);
+                      std::shared_ptr<Session> session, bool is_companion);
 
 } // namespace elvis::serve

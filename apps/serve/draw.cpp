@@ -17,11 +17,6 @@ constexpr std::uint32_t doubts = pixel_flag::contour_undecided | pixel_flag::mes
                                  pixel_flag::isosurface_undecided | pixel_flag::volume_tolerance | pixel_flag::undecided |
                                  pixel_flag::work_limit | pixel_flag::range_too_fine | pixel_flag::overlap;
 
-elvis::scene library_scene(const Served& served, const Scene& scene) {
-    // Paths of scenes are seen from the working directory.
-    return served.library.parse_scene(scene_json(scene, "scene").dump());
-}
-
 double since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -41,6 +36,11 @@ json facts_of_picture(const picture& drawn, const elvis_picture_info& info) {
 }
 
 } // namespace
+
+elvis::scene library_scene(const Served& served, const Scene& scene) {
+    // Paths of scenes are seen from the working directory.
+    return served.library.parse_scene(scene_json(scene, "scene").dump());
+}
 
 Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSchedule::Step& step, const Line& line,
                         const task& watch) {

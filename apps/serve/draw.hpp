@@ -30,6 +30,9 @@ struct Line {
     int quality = 80;
 };
 
+/** What the library calls a scene. */
+elvis::scene library_scene(const Served& served, const Scene& scene);
+
 /** A JPEG of the step. */
 Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSchedule::Step& step, const Line& line,
                         const task& watch);

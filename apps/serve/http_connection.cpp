@@ -116,7 +116,8 @@ private:
         if (!session) {
             return refusal(request, http::status::service_unavailable, "there are as many sessions as there may be");
         }
-        start_web_socket(m_hall, std::move(m_counted), std::move(m_stream), request, std::move(session));
+        start_web_socket(m_hall, std::move(m_counted), std::move(m_stream), request, std::move(session),
+                         address.parameter("companion") == "1");
         return std::nullopt;
     }
 

@@ -24,6 +24,8 @@ struct Options {
     std::vector<std::string> origins;
     /** Files that scenes of the page may name lie below; empty: the folder of the first file. */
     std::string root;
+    /** The server ends when its standard input does, and so with the program that has started it. */
+    bool ends_with_input = false;
     std::size_t most_sessions = 8;
     std::size_t most_connections = 256;
 };

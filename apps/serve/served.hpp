@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "histograms.hpp"
 #include "scene_edit.hpp"
 
 #include <apps/elvis/view/model/volume_facts.hpp>
@@ -27,6 +28,7 @@ struct Served {
     std::string page_scene;
     ScenePaths paths;
     TemporaryFolder pictures;
+    mutable Histograms histograms;
     /** Sessions that draw or answer what somebody waits for: exact pictures of others make way. */
     mutable std::atomic<int> n_urgent = 0;
 

@@ -7,9 +7,13 @@
 #include <core/scene/write/write_scene.hpp>
 
 #include <boost/asio/ip/host_name.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include <unistd.h>
+
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -97,6 +101,10 @@ public:
                 m_io.stop();
             }
         });
+        if (m_hall.options.ends_with_input) {
+            m_input.assign(::dup(STDIN_FILENO));
+            wait_for_end_of_input();
+        }
         accept();
         tidy();
         m_io.run();
@@ -104,6 +112,16 @@ public:
     }
 
 private:
+    void wait_for_end_of_input() {
+        m_input.async_read_some(net::buffer(m_read), [this](const boost::system::error_code& error, std::size_t) {
+            if (error) {
+                m_io.stop();
+            } else {
+                wait_for_end_of_input();
+            }
+        });
+    }
+
     void accept() {
         m_acceptor.async_accept([this](const boost::system::error_code& error, tcp::socket socket) {
             if (!error && m_hall.n_connections < m_hall.options.most_connections) {
@@ -135,6 +153,8 @@ private:
     tcp::acceptor m_acceptor;
     net::steady_timer m_timer, m_pause{m_io};
     net::signal_set m_signals;
+    net::posix::stream_descriptor m_input{m_io};
+    std::array<char, 64> m_read{};
 };
 
 } // namespace

@@ -55,52 +55,17 @@ Session::Session(std::shared_ptr<const Served> served, std::string id) : m_serve
 Session::~Session() { stop(); }
 
 void Session::stop() {
-    detach();
+    {
+        const std::lock_guard lock(m_mutex);
+        m_page = nullptr;
+        m_send = {};
+        m_companions.clear();
+        m_tasks.clear();
+        m_later.clear();
+        m_cancelled = true;
+    }
     m_thread.request_stop();
     m_changed.notify_all();
-}
-
-void Session::attach(Send send) {
-    const std::lock_guard lock(m_mutex);
-    this->send({{"type", "taken"}});
-    m_send = std::move(send);
-    m_unconfirmed.clear();
-    m_line = {};
-    m_confirm_milliseconds = 0;
-    m_schedule.change();
-    m_failed_revision.reset();
-    this->send({{"type", "hello"}, {"session", m_id}, {"volume", volume()}});
-    this->send(state());
-    m_changed.notify_all();
-}
-
-void Session::detach() {
-    const std::lock_guard lock(m_mutex);
-    m_send = {};
-    m_tasks.clear();
-    m_cancelled = true;
-}
-
-void Session::send(const Json& message) {
-    if (m_send) {
-        m_send({false, message.dump()});
-    }
-}
-
-void Session::send(const Json& facts, const std::string& bytes) {
-    if (!m_send) {
-        return;
-    }
-    const std::string text = facts.dump();
-    // The length of the text, lowest byte first; the text; the bytes.
-    Outgoing message{true, {}};
-    message.bytes.reserve(4 + text.size() + bytes.size());
-    for (unsigned shift = 0; shift < 32; shift += 8) {
-        message.bytes += static_cast<char>((text.size() >> shift) & 255u);
-    }
-    message.bytes += text;
-    message.bytes += bytes;
-    m_send(std::move(message));
 }
 
 void Session::changed(bool is_moving) {
@@ -122,13 +87,12 @@ void Session::cancel_outdated(Clock::time_point now) {
     }
 }
 
-bool Session::has_work(Clock::time_point now) const {
-    if (!m_send) {
-        return false;
-    }
-    return !m_tasks.empty() || (m_unconfirmed.size() < most_unconfirmed && m_failed_revision != m_model.revision() &&
-                                m_schedule.next(now).has_value());
+std::optional<FrameSchedule::Step> Session::next_step(Clock::time_point now) const {
+    const bool may_send = m_send && m_unconfirmed.size() < most_unconfirmed && m_failed_revision != m_model.revision();
+    return may_send ? m_schedule.next(now) : std::nullopt;
 }
+
+bool Session::has_work(Clock::time_point now) const { return !m_tasks.empty() || !m_later.empty() || next_step(now); }
 
 void Session::run(const std::stop_token& stop) {
     std::unique_lock lock(m_mutex);
@@ -146,22 +110,24 @@ void Session::run(const std::stop_token& stop) {
         n_waits = 0;
         m_cancelled = false;
         if (!m_tasks.empty()) {
-            do_task(lock);
-        } else if (const auto step = m_schedule.next(Clock::now())) {
+            do_task(lock, m_tasks);
+        } else if (const auto step = next_step(Clock::now())) {
             draw(lock, *step);
+        } else if (!m_later.empty()) {
+            do_task(lock, m_later);
         }
     }
 }
 
-void Session::do_task(std::unique_lock<std::mutex>& lock) {
-    Task task = std::move(m_tasks.front());
-    m_tasks.pop_front();
+void Session::do_task(std::unique_lock<std::mutex>& lock, std::deque<Task>& tasks) {
+    Task task = std::move(tasks.front());
+    tasks.pop_front();
     send({{"type", "activity"}, {"text", task.activity}});
     lock.unlock();
-    Json message = std::move(task.answer);
+    Json message = task.answer;
     Encoded result{Json::object(), {}};
     try {
-        const Urgent urgent(*m_served, true);
+        const Urgent urgent(*m_served, &tasks == &m_tasks);
         result = task.job(task.scene, {{}, [this] { return m_cancelled.load(); }});
         message["type"] = "answer";
         message.update(result.facts);
@@ -171,10 +137,9 @@ void Session::do_task(std::unique_lock<std::mutex>& lock) {
     }
     lock.lock();
     send({{"type", "activity"}, {"text", ""}});
-    if (result.bytes.empty()) {
-        send(message);
-    } else {
-        send(message, result.bytes);
+    send_to(task.from, message, result.bytes);
+    if (message.contains("picked")) {
+        tell_companions({{"type", "picked"}, {"picked", message["picked"]}}, task.from);
     }
 }
 
@@ -185,7 +150,8 @@ void Session::draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step
     const bool is_exact = step.stage == FrameStage::exact || (step.stage == FrameStage::full && !m_is_refinable && is_at_rest);
     const Scene scene = m_model.scene();
     const std::uint64_t revision = m_model.revision();
-    const Json echo = m_echo;
+    // Of what is drawn, not of what comes meanwhile.
+    const Json told = {{"revision", revision}, {"echo", m_echo}, {"overlay", overlay_json()}};
     Line line = m_line;
     line.quality = step.stage == FrameStage::moving ? moving_quality : full_quality;
     line.shrink = step.stage == FrameStage::moving ? line.shrink : 1;
@@ -226,7 +192,7 @@ void Session::draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step
         m_is_refinable = is_exact ? m_is_refinable : drawn->is_refinable;
         // A JPEG is never exact.
         m_schedule.drawn(done, true, drawn->milliseconds);
-        send_frame(done, std::move(*drawn), revision, echo);
+        send_frame(done, std::move(*drawn), told);
     } else if (has_yielded) {
         ++m_n_yields;
         lock.unlock();
@@ -235,7 +201,7 @@ void Session::draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step
     }
 }
 
-void Session::send_frame(const FrameSchedule::Step& step, Encoded&& drawn, std::uint64_t revision, const Json& echo) {
+void Session::send_frame(const FrameSchedule::Step& step, Encoded&& drawn, const Json& told) {
     if (!m_send) {
         m_schedule.change(); // Nobody has seen it.
         return;
@@ -246,9 +212,8 @@ void Session::send_frame(const FrameSchedule::Step& step, Encoded&& drawn, std::
                   {"stage", name_of(step.stage)},
                   {"divisor", step.divisor},
                   {"shrink", step.stage == FrameStage::moving ? m_line.shrink : 1},
-                  {"milliseconds", drawn.milliseconds},
-                  {"revision", revision},
-                  {"echo", echo}});
+                  {"milliseconds", drawn.milliseconds}});
+    facts.update(told);
     m_unconfirmed.push_back({m_frame, Clock::now()});
     send(facts, drawn.bytes);
 }

@@ -13,6 +13,7 @@
 #include <condition_variable>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -29,6 +30,8 @@ struct Outgoing {
 };
 /** For any thread; must not wait. */
 using Send = std::function<void(Outgoing)>;
+/** Somebody who speaks to a session: a mark of the connection. */
+using Member = const void*;
 
 /** Frames that were sent and not yet shown. */
 inline constexpr int most_unconfirmed = 2;
@@ -43,10 +46,12 @@ public:
 
     const std::string& id() const { return m_id; }
     /** A page is there, in place of one before: it gets the state, and pictures from now on. */
-    void attach(Send send);
-    void detach();
-    /** A message of the page. What is wrong with it goes back as text. */
-    void receive(std::string_view text);
+    void attach(Member page, Send send);
+    /** A program is there, beside the page: it gets the state, and is told of the camera and of what is picked. */
+    void attach_companion(Member companion, Send send);
+    void detach(Member member);
+    /** A message of one of them; of others it is dropped. What is wrong with it goes back as text. */
+    void receive(Member from, std::string_view text);
     /** It draws no more, and says no more. */
     void stop();
 
@@ -56,6 +61,7 @@ private:
     /** Runs while the lock is open, with the scene as it was when asked; returns what goes to the page. */
     using Job = std::function<Encoded(const Scene& scene, const task& watch)>;
     struct Task {
+        Member from = nullptr;
         Json answer;
         std::string activity;
         Scene scene;
@@ -69,7 +75,7 @@ private:
     using Handler = Json (Session::*)(const Json& message);
     static Handler handler_of(const std::string& type);
 
-    // Messages: session_messages.cpp.
+    // Messages: session_messages.cpp, session_scene.cpp, session_overlay.cpp, session_answers.cpp.
     Json resize(const Json& message);
     Json orbit(const Json& message);
     Json pan(const Json& message);
@@ -88,33 +94,56 @@ private:
     Json remove(const Json& message);
     Json show(const Json& message);
     Json copy(const Json& message);
+    Json overlay(const Json& message);
+    Json drag(const Json& message);
     Json pick(const Json& message);
     Json range(const Json& message);
+    Json line(const Json& message);
+    Json histogram(const Json& message);
+    Json palette(const Json& message);
     Json undecided(const Json& message);
     Json save_scene(const Json& message);
     Json save_picture(const Json& message);
     Json shown(const Json& message);
+    /** Throws Error if there would be nothing to see. */
     void move_camera(const Camera& camera);
-    /** Where the library takes it; throws what it says otherwise. */
+    void set_camera(const Camera& camera, bool is_moving);
+    /** A scene of the page, if the library takes it; throws what it says otherwise. */
+    Scene judged(const Json& scene) const;
     void edit(const std::string& what, const Json& scene);
+    void edited(bool is_moving);
     /** A step of its own. */
     void change_items(const std::string& what, Scene&& scene);
-    void post(const Json& message, std::string activity, Job job);
+    /** `is_awaited`: before the next picture. */
+    void post(const Json& message, std::string activity, Job job, bool is_awaited = true);
     view::ItemId item_of(const Json& message) const;
+    /** What a message names, or what the scene shows. */
+    std::string field_of(const Json& message) const;
     Json page_json() const;
+    Json overlay_json() const;
+    Json hello() const;
     Json state() const;
     Json volume() const;
 
+    // Who is there: session_members.cpp. With the lock held.
+    bool is_member(Member member) const { return member == m_page || m_companions.contains(member); }
+    /** To the page. */
+    void send(const Json& message, const std::string& bytes = {});
+    void send_to(Member member, const Json& message, const std::string& bytes = {});
+    void tell_companions(const Json& message, Member but = nullptr);
+    void tell_state();
+    void tell_camera();
+
     // Pictures: session.cpp. With the lock held.
     void changed(bool is_moving);
-    void send(const Json& message);
-    void send(const Json& facts, const std::string& bytes);
     void run(const std::stop_token& stop);
+    /** The picture to draw now, if one is wanted and may be sent. */
+    std::optional<FrameSchedule::Step> next_step(Clock::time_point now) const;
     bool has_work(Clock::time_point now) const;
     /** These open the lock while they work. */
-    void do_task(std::unique_lock<std::mutex>& lock);
+    void do_task(std::unique_lock<std::mutex>& lock, std::deque<Task>& tasks);
     void draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step& step);
-    void send_frame(const FrameSchedule::Step& step, Encoded&& drawn, std::uint64_t revision, const Json& echo);
+    void send_frame(const FrameSchedule::Step& step, Encoded&& drawn, const Json& told);
     void cancel_outdated(Clock::time_point now);
     /** Fewer pixels where the line is slow, more where it is not. */
     void adapt(double milliseconds);
@@ -123,10 +152,20 @@ private:
     std::string m_id;
     mutable std::mutex m_mutex;
     std::condition_variable_any m_changed;
+    Member m_page = nullptr;
+    /** The page's. */
     Send m_send;
+    std::map<Member, Send> m_companions;
+    /** Whose message is being worked on. */
+    Member m_asker = nullptr;
     view::Model m_model;
+    /** While a handle is dragged: the scene before. */
+    std::optional<Scene> m_taken;
+    /** Points whose places in the picture the page is told. */
+    std::vector<Vector3> m_marked;
     FrameSchedule m_schedule{20};
-    std::deque<Task> m_tasks;
+    /** Before the next picture, and when no picture is wanted. */
+    std::deque<Task> m_tasks, m_later;
     std::deque<Unconfirmed> m_unconfirmed;
     std::optional<FrameSchedule::Step> m_drawing;
     std::uint64_t m_frame = 0;
@@ -137,6 +176,8 @@ private:
     Line m_line;
     double m_confirm_milliseconds = 0;
     bool m_is_refinable = true;
+    /** The camera is still that of the first scene, for the size of the page. */
+    bool m_is_first_view = true;
     /** How often exact pictures made way for others. */
     int m_n_yields = 0;
     std::atomic<bool> m_cancelled = false;

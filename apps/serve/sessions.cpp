@@ -12,8 +12,7 @@ std::shared_ptr<Session> Sessions::find_or_make(const std::string& id) {
     if (m_entries.size() >= m_most) {
         auto oldest = m_entries.end();
         for (auto entry = m_entries.begin(); entry != m_entries.end(); ++entry) {
-            if (entry->second.page == nullptr &&
-                (oldest == m_entries.end() || entry->second.detached < oldest->second.detached)) {
+            if (entry->second.is_alone() && (oldest == m_entries.end() || entry->second.detached < oldest->second.detached)) {
                 oldest = entry;
             }
         }
@@ -24,28 +23,37 @@ std::shared_ptr<Session> Sessions::find_or_make(const std::string& id) {
     }
     const std::string name = random_digits(16);
     auto session = std::make_shared<Session>(m_served, name);
-    m_entries[name] = {session, nullptr, Clock::now()};
+    m_entries[name] = {session, nullptr, {}, Clock::now()};
     return session;
 }
 
-void Sessions::attached(const std::string& id, const void* page) {
-    if (const auto found = m_entries.find(id); found != m_entries.end()) {
-        found->second.page = page;
+void Sessions::attached(const std::string& id, Member member, bool is_companion) {
+    const auto found = m_entries.find(id);
+    if (found == m_entries.end()) {
+        return;
+    }
+    if (is_companion) {
+        found->second.companions.insert(member);
+    } else {
+        found->second.page = member;
     }
 }
 
-void Sessions::detached(const std::string& id, const void* page) {
+void Sessions::detached(const std::string& id, Member member) {
     const auto found = m_entries.find(id);
-    if (found != m_entries.end() && found->second.page == page) {
-        found->second.page = nullptr;
-        found->second.detached = Clock::now();
-        found->second.session->detach();
+    if (found == m_entries.end()) {
+        return;
     }
+    Entry& entry = found->second;
+    entry.companions.erase(member);
+    entry.page = entry.page == member ? nullptr : entry.page;
+    entry.detached = entry.is_alone() ? Clock::now() : entry.detached;
+    entry.session->detach(member);
 }
 
 void Sessions::end_old() {
     std::erase_if(m_entries, [](const auto& entry) {
-        return entry.second.page == nullptr && Clock::now() - entry.second.detached > session_patience;
+        return entry.second.is_alone() && Clock::now() - entry.second.detached > session_patience;
     });
 }
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace elvis::serve {
@@ -26,9 +27,9 @@ public:
      * nullptr if all have theirs.
      */
     std::shared_ptr<Session> find_or_make(const std::string& id);
-    /** `page`: a mark of the connection. A page that comes to a session takes it from the one before. */
-    void attached(const std::string& id, const void* page);
-    void detached(const std::string& id, const void* page);
+    /** A page that comes to a session takes it from the one before; companions come beside it. */
+    void attached(const std::string& id, Member member, bool is_companion);
+    void detached(const std::string& id, Member member);
     void end_old();
     void stop_all();
 
@@ -36,8 +37,11 @@ private:
     using Clock = std::chrono::steady_clock;
     struct Entry {
         std::shared_ptr<Session> session;
-        const void* page = nullptr;
+        Member page = nullptr;
+        std::set<Member> companions;
         Clock::time_point detached{};
+
+        bool is_alone() const { return page == nullptr && companions.empty(); }
     };
 
     std::shared_ptr<const Served> m_served;

@@ -45,9 +45,9 @@ private:
 
 class WebSocket : public std::enable_shared_from_this<WebSocket> {
 public:
-    WebSocket(Hall& hall, Counted counted, beast::tcp_stream stream, std::shared_ptr<Session> session)
-        : m_hall(hall), m_counted(std::move(counted)), m_session(std::move(session)), m_socket(std::move(stream)),
-          m_timer(hall.io) {}
+    WebSocket(Hall& hall, Counted counted, beast::tcp_stream stream, std::shared_ptr<Session> session, bool is_companion)
+        : m_hall(hall), m_counted(std::move(counted)), m_session(std::move(session)), m_is_companion(is_companion),
+          m_socket(std::move(stream)), m_timer(hall.io) {}
     ~WebSocket() { m_hall.sessions.detached(m_session->id(), this); }
     WebSocket(const WebSocket&) = delete;
     WebSocket& operator=(const WebSocket&) = delete;
@@ -58,7 +58,7 @@ public:
         m_socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), std::chrono::seconds(40), true});
         m_socket.read_message_max(most_message_bytes);
         m_socket.auto_fragment(false);
-        m_hall.sessions.attached(m_session->id(), this);
+        m_hall.sessions.attached(m_session->id(), this, m_is_companion);
         m_socket.async_accept(request, [self = shared_from_this()](const beast::error_code& error) {
             if (!error) {
                 self->accepted();
@@ -68,13 +68,18 @@ public:
 
 private:
     void accepted() {
-        m_session->attach([weak = weak_from_this(), &io = m_hall.io](Outgoing message) {
+        Send send = [weak = weak_from_this(), &io = m_hall.io](Outgoing message) {
             boost::asio::post(io, [weak, message = std::move(message)]() mutable {
                 if (const auto self = weak.lock()) {
                     self->send(std::move(message));
                 }
             });
-        });
+        };
+        if (m_is_companion) {
+            m_session->attach_companion(this, std::move(send));
+        } else {
+            m_session->attach(this, std::move(send));
+        }
         read();
     }
 
@@ -87,7 +92,7 @@ private:
     }
 
     void take() {
-        m_session->receive(beast::buffers_to_string(m_buffer.data()));
+        m_session->receive(this, beast::buffers_to_string(m_buffer.data()));
         m_buffer.consume(m_buffer.size());
         const std::chrono::milliseconds wait = m_allowance.take();
         if (wait.count() == 0) {
@@ -130,6 +135,7 @@ private:
     Hall& m_hall;
     Counted m_counted;
     std::shared_ptr<Session> m_session;
+    bool m_is_companion;
     websocket::stream<beast::tcp_stream> m_socket;
     boost::asio::steady_timer m_timer;
     beast::flat_buffer m_buffer;
@@ -140,8 +146,8 @@ private:
 } // namespace
 
 void start_web_socket(Hall& hall, Counted counted, beast::tcp_stream stream, const Request& request,
-                      std::shared_ptr<Session> session) {
-    std::make_shared<WebSocket>(hall, std::move(counted), std::move(stream), std::move(session))->start(request);
+                      std::shared_ptr<Session> session, bool is_companion) {
+    std::make_shared<WebSocket>(hall, std::move(counted), std::move(stream), std::move(session), is_companion)->start(request);
 }
 
 } // namespace elvis::serve

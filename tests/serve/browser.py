@@ -76,6 +76,10 @@ class Browser:
     def find(self, selector):
         return self.call("POST", "/element", {"using": "css selector", "value": selector})[ELEMENT]
 
+    def frame(self, selector):
+        """What follows is about the page in that frame; None: about the whole page."""
+        self.call("POST", "/frame", {"id": {ELEMENT: self.find(selector)} if selector else None})
+
     def click(self, selector):
         self.call("POST", f"/element/{self.find(selector)}/click")
 

@@ -175,6 +175,20 @@ class ServeTest(unittest.TestCase):
         self.assertEqual({f["name"]: f["gradients"] for f in picked["fields"]},
                          {name: sum(gradients, []) for name, gradients in probed["gradients"].items()})
 
+    def test_steps_of_long_scenes_are_few(self):
+        page = self.page()
+        clip = [[0, 0, 1, 5]] * 20000
+        for i in range(30):
+            page.ask(type="set", pointer="/surfaces", value=[{"type": "plane", "plane": [0, 0, 1, i / 100], "clip": clip}], name=f"plane {i}")
+        n = 0
+        while page.state["undo"] is not None:
+            page.ask(type="undo")
+            n += 1
+        text = len(json.dumps(clip))
+        print(f"\n{n} steps of scenes of {text >> 10} KiB")
+        self.assertLess(n, 30)
+        self.assertLess(n * text, 16 << 20)
+
     def test_time_steps(self):
         page = self.page()
         self.assertEqual(page.volume["times"], [0, 1, 2])
@@ -190,10 +204,10 @@ class ServeTest(unittest.TestCase):
         self.assertEqual(page.ask(type="load", scene=loaded)["type"], "answer")
         self.assertEqual(page.state["scene"]["surfaces"][0]["radius"], 0.5)
         self.assertEqual(page.state["scene"]["image"]["size"], SIZE)
-        page.ask(type="camera", eye=[3, 2, 1], look_at=[0, 0, 0], up=[0, 0, 1])
+        page.ask(type="camera", camera={"eye": [3, 2, 1], "look_at": [0, 0, 0], "up": [0, 0, 1]})
         self.assertEqual(page.ask(type="save scene")["scene"]["camera"]["eye"], [3, 2, 1])
         for eye in ([0, 0, 0], [0, 0, 5], [1, 2], [1e300, 0, 0]):
-            self.assertEqual(page.ask(type="camera", eye=eye, look_at=[0, 0, 0], up=[0, 0, 1])["type"], "error")
+            self.assertEqual(page.ask(type="camera", camera={"eye": eye, "look_at": [0, 0, 0], "up": [0, 0, 1]})["type"], "error")
         page.ask(type="undo")
         self.assertEqual(len(page.state["scene"]["surfaces"]), 2)
 
@@ -311,8 +325,8 @@ class ServeTest(unittest.TestCase):
         n = int(os.environ.get("ELVIS_FUZZ_MESSAGES", "2000"))
         chance = random.Random(seed)
         types = ["resize", "orbit", "pan", "zoom", "roll", "view", "projection", "camera", "release", "set", "merge", "load", "undo",
-                 "redo", "add", "remove", "show", "copy", "pick", "range", "save scene", "shown", "nonsense"]
-        keys = ["dx", "dy", "x", "y", "factor", "name", "pointer", "value", "patch", "scene", "kind", "index", "shown", "column", "row",
+                 "redo", "add", "remove", "show", "copy", "pick", "range", "overlay", "drag", "line", "histogram", "palette", "save scene", "shown", "nonsense"]
+        keys = ["dx", "dy", "x", "y", "factor", "name", "pointer", "value", "patch", "scene", "camera", "color_map", "from", "to", "handle", "item", "points", "count", "fields", "kind", "index", "shown", "column", "row",
                 "width", "height", "frame", "eye", "look_at", "up", "degrees", "orthographic", "field", "middle", "id", "time"]
         values = [0, 1, -1, 1e308, -1e-308, 2 ** 63, 1.5, "", "all", "+x", "Sphere", "Isosurface", "surface", "/surfaces/0/opacity",
                   "/camera/eye", "/surfaces/-", "/volume/time_step", "/image/size", None, True, [], {}, [1, 2, 3], [[]], {"name": "gray"},
@@ -387,8 +401,40 @@ class LimitsTest(unittest.TestCase):
             finally:
                 self.assertEqual(server.stop(), 0)
 
+    def test_memory_has_a_limit(self):
+        with tempfile.TemporaryDirectory(prefix="elvis-serve-test-") as folder:
+            volume = make_volume(folder)
+            server = Server(volume)
+            opened = server.memory()
+            self.assertEqual(server.stop(), 0)
+            done = subprocess.run([PROGRAM, "serve", volume, "--port", "0", "--memory", "20"], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("of the 20 MiB that it may (--memory)", done.stderr)
+            # Kernels and buffers of the first picture take more than this.
+            server = Server(volume, "--memory", str(int(opened) + 15))
+            try:
+                page = server.page(size=[160, 120])
+                page.exact()
+                for refused in (page.ask(type="resize", width=4000, height=4000), page.ask(type="save picture", width=4000, height=4000),
+                                page.ask(type="set", pointer="/image/size", value=[4000, 4000])):
+                    self.assertEqual(refused["type"], "error")
+                    self.assertIn("--memory", refused["text"])
+                with self.assertRaises(Refused) as refused:
+                    server.socket()
+                self.assertEqual(refused.exception.status, 503)
+                self.assertIn("--memory", str(refused.exception))
+                page.ask(type="orbit", dx=5, dy=0)
+                page.exact()  # What is there goes on.
+                page.close()
+                time.sleep(0.3)
+                again = server.page(session=page.session)
+                again.exact()
+                again.close()
+            finally:
+                self.assertEqual(server.stop(), 0)
+
     def test_wrong_arguments_are_errors(self):
-        for arguments in (["missing.h5"], ["missing.json", "--port", "70000"], [__file__], ["missing.h5", "--sessions", "0"]):
+        for arguments in (["missing.h5"], ["missing.json", "--port", "70000"], [__file__], ["missing.h5", "--sessions", "0"], ["missing.h5", "--memory", "0"]):
             done = subprocess.run([PROGRAM, "serve", *arguments], capture_output=True, text=True)
             self.assertNotEqual(done.returncode, 0)
             self.assertNotEqual(done.stderr, "")

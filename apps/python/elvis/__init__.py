@@ -14,9 +14,10 @@ from ._library import context, convert, devices, plugins, set_up
 from ._picture import Picture
 from ._probe import Samples
 from ._scene import Scene
+from ._view import View
 from ._volume import Field, Range, Volume, open
 from .scene_objects import *  # noqa: F403: the objects of scenes, by their names in the scene file.
 from .scene_objects import __all__ as _objects
 
-__all__ = ["Break", "Elements", "Error", "Field", "Frames", "Integral", "Mesh", "Picture", "Range", "Samples", "Scene", "Side", "Space", "Streamline", "Volume",
+__all__ = ["Break", "Elements", "Error", "Field", "Frames", "Integral", "Mesh", "Picture", "Range", "Samples", "Scene", "Side", "Space", "Streamline", "View", "Volume",
            "context", "convert", "devices", "from_arrays", "open", "plugins", "set_up", *_objects]

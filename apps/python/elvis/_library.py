@@ -35,6 +35,11 @@ def context() -> _elvis.Context:
     return _context
 
 
+def settings() -> dict[str, Any]:
+    """What set_up has chosen: device, plugin_path, cache_folder."""
+    return dict(_settings)
+
+
 def devices() -> list[dict[str, Any]]:
     """This machine's Vulkan devices: index, name, type, driver, memory_bytes, float64, unusable_because."""
     return json.loads(context().devices())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ._library import context
@@ -12,6 +13,7 @@ from ._progress import progress_for
 from .scene_objects import SceneKeys
 
 if TYPE_CHECKING:
+    from ._view import View
     from ._volume import Volume
 
 
@@ -40,8 +42,8 @@ class Scene(SceneKeys):
         The scene of a volume from arrays names no volume, since there is no file of it.
         """
         whole = self.to_json()
-        if self._shown is not None and self._shown.is_file and "volume" not in self.to_dict():
-            whole = json.dumps({**json.loads(whole), "volume": {"path": os.path.abspath(self._shown.path)}})
+        if self._shown is not None and self._shown.is_file:
+            whole = json.dumps({**json.loads(whole), "volume": {**self._shown.named, **self.to_dict().get("volume", {})}})
         context().write_scene(whole, self._folder, os.fspath(path))
 
     def check(self) -> None:
@@ -55,6 +57,19 @@ class Scene(SceneKeys):
     def render(self, width: int = 0, height: int = 0, *, progress: Any = True) -> Picture:
         """Draws the picture; width and height 0 are those of image.size. See Volume.render."""
         return self._volume().render(self, width, height, progress=progress)
+
+    def view(self, *, width: str | int = "100%", height: str | int = 600, url: str = "http://127.0.0.1:{port}/",
+             root: str | os.PathLike | None = None, origins: Sequence[str] = ()) -> View:
+        """Shows the scene in a page that can be turned: in a notebook in a frame, else at the address that is printed.
+
+        width, height: of the frame, in pixels or as CSS has them. url: where the browser finds the server's port, such as
+        "/proxy/{port}/" behind jupyter-server-proxy. root: the folder of files that the page's scenes may name; by default the
+        volume's. origins: where else pages may come from, such as "https://host" behind a proxy. The server opens the volume once
+        more, and listens on 127.0.0.1.
+        """
+        from ._view import show
+
+        return show(self._volume(), self, width=width, height=height, url=url, root=root, origins=origins)
 
     def _volume(self) -> Volume:
         if self._shown is None:

@@ -17,6 +17,7 @@ from ._picture import Picture
 from ._probe import Samples
 from ._progress import Progress, progress_for
 from ._scene import Scene
+from ._view import View
 from .scene_objects import Surface
 
 @dataclass(frozen=True)
@@ -51,9 +52,12 @@ class Range:
 class Volume:
     """A volume that is open: see elvis.open."""
 
-    def __init__(self, handle: _elvis.Volume, path: str, layouts: dict[str, list[tuple[int, ...]]] | None = None) -> None:
+    def __init__(self, handle: _elvis.Volume, path: str, layouts: dict[str, list[tuple[int, ...]]] | None = None,
+                 named: dict[str, Any] | None = None) -> None:
         self._handle = handle
         self._layouts = layouts
+        self.named = {"path": os.path.abspath(path), **(named or {})}
+        """As scenes name it: path, more_paths, plugin, options."""
         self.path = path
         """Its file."""
         self._facts = json.loads(handle.describe(0, True))
@@ -262,6 +266,10 @@ class Volume:
         with progress_for(progress) as report:
             return json.loads(self._handle.pick(scene.to_json(), scene._folder, float(column), float(row), report))
 
+    def view(self, **options: Any) -> View:
+        """Shows the volume in a page that can be turned: see Scene.view, and View."""
+        return self.scene(image={"annotation": "default"}).view(**options)
+
     def complete(self, scene: Scene | None = None) -> Scene:
         """The scene with what it leaves open: the camera, and surfaces if it shows nothing, as its picture has them."""
         scene = self.scene() if scene is None else scene
@@ -303,4 +311,6 @@ def open(path: str | os.PathLike | list[str | os.PathLike], *, plugin: str = "",
     paths = [os.fspath(file) for file in (path if isinstance(path, list) else [path])]
     with progress_for(progress) as report:
         handle = context().open(paths, plugin, json.dumps(options) if options else "", report)
-    return Volume(handle, paths[0])
+    more = [os.path.abspath(file) for file in paths[1:]]
+    named = {"more_paths": more, "plugin": plugin, "options": options}
+    return Volume(handle, paths[0], named={key: value for key, value in named.items() if value})

@@ -4,6 +4,24 @@
 
 const retryMilliseconds = [300, 1000, 2000, 4000];
 
+/** What the address names comes first. Frames in pages of others may have no storage. */
+function sessionName() {
+  try {
+    return new URLSearchParams(location.search).get("session") ?? sessionStorage.getItem("elvis-session") ?? "";
+  } catch {
+    return "";
+  }
+}
+
+/** @param {string} name */
+function keepSession(name) {
+  try {
+    sessionStorage.setItem("elvis-session", name);
+  } catch {
+    // The session is lost when the frame is loaded anew.
+  }
+}
+
 export class Connection {
   /** @param {{message: (m: Message) => void, bytes: (facts: Message, bytes: Uint8Array) => void, line: (text: string) => void}} listener */
   constructor(listener) {
@@ -21,7 +39,7 @@ export class Connection {
   open() {
     // Relative to the page, so that it does not matter where a proxy has put it.
     const url = new URL("session", location.href.replace(/^http/, "ws"));
-    url.search = new URLSearchParams({token: this.token, session: sessionStorage.getItem("elvis-session") ?? ""}).toString();
+    url.search = new URLSearchParams({token: this.token, session: sessionName()}).toString();
     url.hash = "";
     const socket = new WebSocket(url);
     this.socket = socket;
@@ -55,7 +73,7 @@ export class Connection {
       return;
     }
     if (message.type === "hello") {
-      sessionStorage.setItem("elvis-session", message.session);
+      keepSession(message.session);
       this.listener.line("");
     } else if (message.type === "taken") {
       this.ended = true;

@@ -14,6 +14,90 @@ export function element(tag, properties = {}, children = []) {
   return node;
 }
 
+const drawing = "http://www.w3.org/2000/svg";
+
+/**
+ * Of a drawing in SVG.
+ * @param {string} tag @param {Record<string, any>} [attributes] @param {(Node | string)[]} [children]
+ */
+export function shape(tag, attributes = {}, children = []) {
+  const node = /** @type {SVGElement} */ (document.createElementNS(drawing, tag));
+  setAttributes(node, attributes);
+  node.append(...children);
+  return node;
+}
+
+/** @param {Element} node @param {Record<string, any>} attributes */
+export function setAttributes(node, attributes) {
+  for (const [key, value] of Object.entries(attributes)) {
+    node.setAttribute(key, String(value));
+  }
+}
+
+/** What somebody holds in the hand must not be made anew. */
+export const hand = {isBusy: false};
+
+const arrows = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+
+/** @param {KeyboardEvent} event @returns {number[] | null} the way of an arrow key, ten times as long with Shift */
+export function arrowOf(event) {
+  const way = arrows[/** @type {keyof typeof arrows} */ (event.key)];
+  return way && !event.ctrlKey && !event.metaKey && !event.altKey ? way.map((x) => x * (event.shiftKey ? 10 : 1)) : null;
+}
+
+/**
+ * Something that is moved with the hand or with arrow keys.
+ * @param {Element} target
+ * @param {{drag: (event: PointerEvent) => void, arrow: (way: number[]) => void, done: () => void, start?: (event: PointerEvent) => void,
+ *          other?: (event: KeyboardEvent) => boolean}} does
+ *   `other`: another key; whether it was one of its own.
+ */
+export function movable(target, does) {
+  const node = /** @type {SVGElement} */ (target);
+  let isHeld = false, isMoved = false;
+  node.addEventListener("pointerdown", (event) => {
+    if (event.button === 0) {
+      isHeld = hand.isBusy = true;
+      node.setPointerCapture(event.pointerId);
+      node.focus();
+      does.start?.(event);
+    }
+    event.stopPropagation();
+    event.preventDefault();
+  });
+  node.addEventListener("pointermove", (event) => {
+    if (isHeld) {
+      does.drag(event);
+    }
+  });
+  const end = () => {
+    if (isHeld) {
+      isHeld = hand.isBusy = false;
+      does.done();
+    }
+  };
+  node.addEventListener("pointerup", end);
+  node.addEventListener("pointercancel", end);
+  node.addEventListener("keydown", (event) => {
+    const way = arrowOf(event);
+    if (way) {
+      isMoved = true;
+      does.arrow(way);
+    }
+    if (way || does.other?.(event)) {
+      event.preventDefault();
+      event.stopPropagation();
+    }
+  });
+  node.addEventListener("keyup", (event) => {
+    if (isMoved) {
+      isMoved = false;
+      does.done();
+      event.stopPropagation();
+    }
+  });
+}
+
 /** @param {string} caption @param {(Node | string)[]} controls */
 export const row = (caption, ...controls) =>
   element("p", {className: "row"}, [element("span", {className: "caption"}, [caption]), ...controls]);
@@ -63,6 +147,33 @@ export function slider(label, ends, value, onChange) {
   input.oninput = () => onChange(Number(input.value), false);
   input.onchange = () => onChange(Number(input.value), true);
   return input;
+}
+
+/** @param {string} label @param {() => void} onClick @param {Record<string, any>} [properties] */
+export function button(label, onClick, properties = {}) {
+  const node = /** @type {HTMLButtonElement} */ (element("button", properties, [label]));
+  node.onclick = onClick;
+  return node;
+}
+
+/** @param {number[]} rgb */
+export const hexOf = (rgb) =>
+  "#" + rgb.map((x) => Math.round(255 * Math.min(1, Math.max(0, x))).toString(16).padStart(2, "0")).join("");
+
+/**
+ * A colour to be chosen, and its numbers, which may be finer and, of light, above 1.
+ * @param {string} caption @param {number[]} rgb @param {(rgb: number[]) => void} onChange
+ */
+export function colorRow(caption, rgb, onChange) {
+  const input = /** @type {HTMLInputElement} */ (element("input", {type: "color", value: hexOf(rgb), "aria-label": caption}));
+  input.onchange = () => onChange([1, 3, 5].map((at) => parseInt(input.value.slice(at, at + 2), 16) / 255));
+  const words = text(`${caption}: red, green, blue`, rgb.map((x) => Number(x.toPrecision(4))).join(", "), (value) => {
+    const all = numbers(value);
+    if (all?.length === 3) {
+      onChange(all);
+    }
+  });
+  return row(caption, input, words);
 }
 
 /** @param {string} label @param {boolean} value @param {(value: boolean) => void} onChange */

@@ -1,16 +1,28 @@
 // Panels for the scene and the item that is selected. They show what the scene says, and send places with new values.
-import {check, choice, element, number, numbers, row, slider, text} from "./controls.js";
+import {check, choice, colorRow, element, number, numbers, row, slider, text} from "./controls.js";
+import {annotationRows} from "./annotation_editor.js";
+import {colorScale} from "./color_scale.js";
+import {lightingRows, lightRows} from "./light_editor.js";
+import {transferEditor} from "./transfer.js";
 
 /** @typedef {Record<string, any>} Json */
 /** @typedef {(pointer: string, value: any, name: string, isDone?: boolean) => void} Set */
+/**
+ * What panels know and do. `release` ends a movement of the hand.
+ * @typedef {{scene: Json, volume: Json, set: Set, release: () => void, histograms: ReturnType<typeof import("./histograms.js").makeHistograms>}} Context
+ */
 
 const maps = ["", "viridis", "magma", "inferno", "plasma", "cividis", "coolwarm", "gray"];
 
+/** @param {Context} context @returns {string} */
+export const sceneField = ({scene, volume}) => scene.field ?? volume.fields[0]?.name ?? "";
+
 /**
  * Rows for a colour map at a place.
- * @param {string} place @param {Json | undefined} map @param {Set} set
+ * @param {string} place @param {Json | undefined} map @param {string} field @param {Context} context
  */
-function mapRows(place, map, set) {
+function mapRows(place, map, field, context) {
+  const {set} = context;
   const range = map?.range ?? [null, null];
   const setRange = (/** @type {any[]} */ ends) => {
     if (ends[0] === null && ends[1] === null) {
@@ -23,27 +35,29 @@ function mapRows(place, map, set) {
   const high = number("Upper end of the range", range[1], (value) => setRange([low.value === "" ? null : Number(low.value), value]));
   low.placeholder = high.placeholder = "automatic";
   const shown = map?.points || map?.file ? "own" : map?.name ?? "";
+  const isOwn = place === "" || map !== undefined;
   return [
     row("Colours", choice("Colour map", maps, shown, (name) => set(`${place}/color_map`, name ? {...(map?.range ? {range: map.range} : {}), name} : null, "colour map"))),
+    ...(isOwn ? colorScale(place, map ?? {}, field, context) : []),
     row("Range", low, high),
     row("", check("logarithmic", map?.scale === "logarithmic", (is) => set(`${place}/color_map/scale`, is ? "logarithmic" : null, "scale"))),
   ];
 }
 
-/** @param {HTMLElement} parent @param {Json} scene @param {string[]} fields @param {Set} set */
-export function showScene(parent, scene, fields, set) {
-  const names = element("datalist", {id: "fields"}, fields.map((value) => element("option", {value})));
-  const isDark = scene.image?.background && scene.image.background[0] < 0.5;
+/** @param {HTMLElement} parent @param {Context} context */
+export function showScene(parent, context) {
+  const {scene, volume, set} = context;
+  const names = element("datalist", {id: "fields"}, volume.fields.map((/** @type {Json} */ field) => element("option", {value: field.name})));
+  const field = sceneField(context);
   parent.replaceChildren(
     names,
-    row("Field", text("Field or expression", scene.field ?? fields[0] ?? "", (value) => set("/field", value || null, "field"), "fields")),
-    ...mapRows("", scene.color_map, set),
+    row("Field", text("Field or expression", field, (value) => set("/field", value || null, "field"), "fields")),
+    ...mapRows("", scene.color_map, field, context),
     row("", check("contours", Boolean(scene.contours), (is) => set("/contours", is ? {} : null, "contours"))),
     row("", check("mesh lines", Boolean(scene.mesh_lines), (is) => set("/mesh_lines", is ? {} : null, "mesh lines"))),
-    row("", check("light", Boolean(scene.lighting) && scene.lighting !== "none", (is) => set("/lighting", is ? "default" : null, "light"))),
-    row("", check("axes and colour bars", Boolean(scene.image?.annotation) && scene.image.annotation !== "none",
-      (is) => set("/image/annotation", is ? "default" : "none", "annotation"))),
-    row("", check("dark background", Boolean(isDark), (is) => set("/image/background", is ? [0.1, 0.1, 0.12, 1] : [1, 1, 1, 1], "background"))),
+    ...lightingRows(context),
+    ...annotationRows(context),
+    colorRow("Background", (scene.image?.background ?? [1, 1, 1]).slice(0, 3), (rgb) => set("/image/background", [...rgb, scene.image?.background?.[3] ?? 1], "background")),
   );
 }
 
@@ -110,27 +124,30 @@ function shapeRows(place, surface, volume, set) {
   return rows;
 }
 
-/** @param {HTMLElement} parent @param {Json} item @param {Json} scene @param {Json} volume @param {Set} set */
-export function showItem(parent, item, scene, volume, set) {
+/** @param {HTMLElement} parent @param {Json} item @param {Context} context */
+export function showItem(parent, item, context) {
+  const {scene, volume, set} = context;
+  const place = item.pointer;
   if (item.kind === "volume") {
     const own = scene.volume_rendering ?? {};
+    const field = own.field ?? sceneField(context);
     parent.replaceChildren(
-      row("Field", text("Field of the volume", own.field ?? "", (value) => set("/volume_rendering/field", value || null, "field"), "fields")),
-      ...mapRows("/volume_rendering", own.color_map, set));
+      row("Field", text("Field of the volume", own.field ?? "", (value) => set(`${place}/field`, value || null, "field"), "fields")),
+      ...transferEditor(own, field, context),
+      ...mapRows(place, own.color_map, field, context));
     return;
   }
-  const surface = item.kind === "surface" ? scene.surfaces?.[item.index] : null;
-  if (!surface) {
-    parent.replaceChildren(element("p", {}, ["Its properties are in the scene's file."]));
+  if (item.kind !== "surface") {
+    parent.replaceChildren(...lightRows(place, scene.lighting?.lights?.[Number(place.split("/").pop())] ?? {}, context));
     return;
   }
-  const place = `/surfaces/${item.index}`;
-  const field = surface.type === "isosurface" ? "color_field" : "field";
+  const surface = scene.surfaces?.[item.index] ?? {};
+  const key = surface.type === "isosurface" ? "color_field" : "field";
   parent.replaceChildren(
     ...shapeRows(place, surface, volume, set),
     row("Opacity", slider("Opacity", [0, 1], surface.opacity ?? 1, (value, isDone) => set(`${place}/opacity`, value, "opacity", isDone))),
-    row("Field", text("Field of the item", surface[field] ?? "", (value) => set(`${place}/${field}`, value || null, "field"), "fields")),
-    ...mapRows(place, surface.color_map, set),
+    row("Field", text("Field of the item", surface[key] ?? "", (value) => set(`${place}/${key}`, value || null, "field"), "fields")),
+    ...mapRows(place, surface.color_map, surface[key] ?? surface.field ?? sceneField(context), context),
     row("", check("contours", Boolean(surface.contours), (is) => set(`${place}/contours`, is ? {} : null, "contours"))),
     row("", check("mesh lines", Boolean(surface.mesh_lines), (is) => set(`${place}/mesh_lines`, is ? {} : null, "mesh lines"))),
     row("", check("light", surface.lighting !== false, (is) => set(`${place}/lighting`, is, "light"))));

@@ -1,7 +1,10 @@
 // What the page does: it shows the state that the server holds, and asks for changes.
 import {Connection} from "./connection.js";
-import {element} from "./controls.js";
-import {pickedTable, showItem, showScene} from "./editor.js";
+import {element, hand} from "./controls.js";
+import {pickedTable, sceneField, showItem, showScene} from "./editor.js";
+import {makeHistograms} from "./histograms.js";
+import {LineProbe} from "./line_probe.js";
+import {Overlay} from "./overlay.js";
 import {Picture} from "./picture.js";
 
 /** @typedef {Record<string, any>} Json */
@@ -36,6 +39,31 @@ picture.onFrame = showFrame;
 /** @param {Json} message */
 const ask = (message) => connection.ask(message).catch((error) => { say(error); return null; });
 
+const overlay = new Overlay($("marks"), (message) => connection.tell(message), (x, y) => picture.place(x, y));
+const histograms = makeHistograms((message) => connection.ask(message));
+const lineProbe = new LineProbe($("line"), {
+  ask, say, download,
+  mark: (points) => ask({type: "overlay", points}).then(showOverlay),
+});
+let overlaid = "";
+
+/** @param {Json | null} told places of handles and points in the picture */
+function showOverlay(told) {
+  if (told) {
+    overlay.show(/** @type {any} */ (told), picture.size, picture.size[0] / Math.max(1, picture.view.clientWidth));
+  }
+}
+
+/** Handles are those of the item that is selected. */
+function selectOnServer() {
+  const item = state.items.find((/** @type {Json} */ one) => key(one) === selected) ?? null;
+  const now = item && JSON.stringify([item.kind, item.index, item.shown]);
+  if (now !== overlaid) {
+    overlaid = now;
+    ask({type: "overlay", item: item && {kind: item.kind, index: item.index}}).then(showOverlay);
+  }
+}
+
 /** A value at a place of the scene. */
 function set(/** @type {string} */ pointer, /** @type {any} */ value, /** @type {string} */ name, isDone = true) {
   if (isDone) {
@@ -51,6 +79,8 @@ function receive(message) {
     volume = message.volume;
     document.title = `${volume.path} - ElVis`;
     showViews();
+    overlaid = "";
+    lineProbe.mark(null);
     picture.resize();
   } else if (message.type === "state") {
     state = message;
@@ -99,6 +129,7 @@ function doubtsOf(counts) {
 /** @param {Json} facts */
 function showFrame(facts) {
   frame = facts;
+  showOverlay(facts.overlay);
   $("mark").textContent = Picture.mark(facts.stage);
   document.body.dataset.stage = facts.stage;
   document.body.dataset.revision = facts.revision;
@@ -125,7 +156,7 @@ async function showUndecided() {
 /** @param {number} column @param {number} row */
 async function pick(column, row) {
   const answer = await ask({type: "pick", column, row});
-  if (answer) {
+  if (answer && !lineProbe.take(answer.picked)) {
     $("picked").replaceChildren(pickedTable(answer.picked));
     $("picked-section").scrollIntoView({block: "nearest"});
   }
@@ -142,18 +173,20 @@ function showState() {
   $("parallel").setAttribute("aria-pressed", String(state.scene.camera?.type === "orthographic"));
   showItems();
   // What somebody holds in the hand must not be taken away.
-  const inHand = document.activeElement instanceof HTMLInputElement && document.activeElement.type === "range" &&
+  const inHand = hand.isBusy || document.activeElement instanceof HTMLInputElement && document.activeElement.type === "range" &&
     document.activeElement.matches(":active");
   if (!inHand) {
-    const fields = volume.fields.flatMap((/** @type {Json} */ field) => field.name);
-    keepFocus(() => showScene($("scene-editor"), state.scene, fields, set));
+    const context = {scene: state.scene, volume, set, histograms, release: () => connection.tell({type: "release"})};
+    keepFocus(() => showScene($("scene-editor"), context));
+    lineProbe.follow(state.scene, sceneField(context));
     const item = state.items.find((/** @type {Json} */ one) => key(one) === selected);
     $("item-section").hidden = !item;
     if (item) {
       $("item-title").textContent = item.label;
-      keepFocus(() => showItem($("item-editor"), item, state.scene, volume, set));
+      keepFocus(() => showItem($("item-editor"), item, context));
     }
   }
+  selectOnServer();
   showTime();
   showSavedViews();
   const [width, height] = state.scene.image?.size ?? [1024, 768];

@@ -1,0 +1,127 @@
+// The colours of a map with the field's histogram above them, and the range as two grips.
+import {button, element, hexOf, movable, row, setAttributes, shape} from "./controls.js";
+import {scale, short} from "./axis.js";
+
+/** @typedef {Record<string, any>} Json */
+/** @typedef {import("./editor.js").Context} Context */
+
+const width = 264, above = 46, bar = 16, height = above + bar + 2;
+
+/**
+ * Bars of a histogram. The square root lets rare values be seen, too.
+ * @param {import("./histograms.js").Histogram} known @param {(value: number) => number} x @param {number} base @param {number} most
+ */
+export function bars(known, x, base, most) {
+  const step = (known.upper - known.lower) / known.bins.length;
+  return known.bins.map((part, i) => {
+    const [from, to] = [x(known.lower + i * step), x(known.lower + (i + 1) * step)];
+    const tall = most * Math.sqrt(part);
+    return shape("rect", {class: "bin", x: from, y: base - tall, width: Math.max(0.5, to - from), height: tall});
+  });
+}
+
+/**
+ * @param {string} place of the item, such as "" or "/surfaces/0" @param {Json} map @param {string} field @param {Context} context
+ */
+export function colorScale(place, map, field, context) {
+  const isLogarithmic = map.scale === "logarithmic";
+  const drawing = shape("svg", {viewBox: `0 0 ${width} ${height}`, class: "scale"});
+  const ends = element("p", {className: "ends"});
+  const buttons = row("");
+  /** @type {[number, number] | null} */
+  let range = map.range ?? null;
+  /** @type {number[][]} */
+  let colors = [];
+  context.histograms.palette(map).then((points) => { colors = points; draw(); });
+
+  /** @param {[number, number]} wanted @param {boolean} isDone */
+  const set = (wanted, isDone) => {
+    if (wanted[0] < wanted[1] && (wanted[0] > 0 || !isLogarithmic)) {
+      range = wanted;
+      context.set(`${place}/color_map/range`, wanted, "range", isDone);
+      draw();
+    }
+  };
+  const grips = ["Lower", "Upper"].map((name, end) => {
+    const grip = shape("path", {class: "end", tabindex: 0, role: "slider", "aria-label": `${name} end of the colours`});
+    const move = (/** @type {(now: number) => number} */ to, /** @type {boolean} */ isDone) => {
+      const now = shownRange();
+      if (now) {
+        const wanted = /** @type {[number, number]} */ ([...now]);
+        wanted[end] = to(now[end]);
+        set(wanted, isDone);
+      }
+    };
+    movable(grip, {
+      drag: (event) => move(() => axis().value(placeOf(event)), false),
+      arrow: ([dx, dy]) => move((now) => axis().value(axis().place(now) + 0.01 * (dx - dy)), false),
+      done: () => context.release(),
+    });
+    return grip;
+  });
+  const known = () => context.histograms.of(field, context.scene, draw);
+  /** @returns {[number, number] | null} */
+  const shownRange = () => {
+    const data = known();
+    return range ?? (data ? [data.lower, data.upper] : null);
+  };
+  /** What is drawn stays while a grip is held. */
+  /** @type {[number, number] | null} */
+  let domain = null;
+  const axis = () => scale(domain ?? [0, 1], isLogarithmic);
+  const x = (/** @type {number} */ value) => width * Math.min(1, Math.max(0, axis().place(value)));
+  const placeOf = (/** @type {PointerEvent} */ event) => {
+    const box = drawing.getBoundingClientRect();
+    return Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
+  };
+
+  function draw() {
+    const data = known(), shown = shownRange();
+    if (!shown) {
+      return;
+    }
+    const low = Math.min(shown[0], data?.lower ?? shown[0]), high = Math.max(shown[1], data?.upper ?? shown[1]);
+    domain ??= isLogarithmic && !(low > 0) ? shown : [low, high];
+    const [from, to] = shown.map(x);
+    const scaled = scale(shown, isLogarithmic);
+    drawing.replaceChildren(
+      ...(data && data.upper > data.lower ? bars(data, x, above, above) : []),
+      shape("rect", {class: "outside", x: 0, y: above, width, height: bar}),
+      ...gradient(colors, (at) => x(scaled.value(at))),
+      ...grips);
+    [from, to].forEach((at, i) => {
+      setAttributes(grips[i], {d: `M${at} 0V${height}M${at - 4} ${height}H${at + 4}V${above}H${at - 4}Z`, "aria-valuenow": shown[i],
+        "aria-valuemin": low, "aria-valuemax": high, "aria-valuetext": short(shown[i])});
+    });
+    ends.textContent = data ? `${field}: ${short(data.lower)} to ${short(data.upper)}` : "";
+    const quantiles = data?.quantiles;
+    const most = data ? Math.max(Math.abs(data.lower), Math.abs(data.upper)) : 0;
+    buttons.replaceChildren(
+      button("Automatic", () => context.set(`${place}/color_map/range`, null, "range"), {disabled: range === null, title: "The field's range at each time step"}),
+      button("±", () => set([-most, most], true), {disabled: isLogarithmic || !(most > 0), title: "Symmetric", "aria-label": "Symmetric range"}),
+      button("2-98 %", () => quantiles && set([quantiles[0], quantiles[3]], true), {disabled: !quantiles, title: "Without the lowest and the highest hundredths of the volume"}),
+      button("10-90 %", () => quantiles && set([quantiles[1], quantiles[2]], true), {disabled: !quantiles}));
+  }
+  draw();
+  return [drawing, ends, buttons];
+}
+
+/**
+ * Even colours between points; SVG's own gradients would need names.
+ * @param {number[][]} points @param {(position: number) => number} x
+ */
+function gradient(points, x) {
+  const n = 64;
+  let at = 0;
+  return points.length === 0 ? [] : Array.from({length: n}, (_, i) => {
+    const position = (i + 0.5) / n;
+    while (at + 2 < points.length && points[at + 1][0] < position) {
+      ++at;
+    }
+    const [from, to] = [points[at], points[Math.min(at + 1, points.length - 1)]];
+    const share = to[0] > from[0] ? Math.min(1, Math.max(0, (position - from[0]) / (to[0] - from[0]))) : 0;
+    const rgb = [1, 2, 3].map((c) => from[c] + share * (to[c] - from[c]));
+    const left = x(i / n);
+    return shape("rect", {x: left, y: above, width: Math.max(0, x((i + 1) / n) - left + 0.4), height: bar, fill: hexOf(rgb)});
+  });
+}

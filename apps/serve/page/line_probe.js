@@ -1,0 +1,158 @@
+// Values along a line: its ends by two clicks or as numbers, the plot, and the values as text.
+import {button, element, numbers, row, text} from "./controls.js";
+import {plot} from "./plot.js";
+
+/** @typedef {Record<string, any>} Json */
+
+export class LineProbe {
+  /**
+   * @param {HTMLElement} parent
+   * @param {{ask: (message: Json) => Promise<Json | null>, say: (text: string) => void, mark: (points: number[][]) => void,
+   *          download: (name: string, content: string, type: string) => void}} does
+   */
+  constructor(parent, does) {
+    this.does = does;
+    /** @type {(number[] | null)[]} */
+    this.ends = [null, null];
+    this.field = "";
+    this.csv = "";
+    /** @type {number | null} the end that the next pick sets */
+    this.next = null;
+    this.isAsking = false;
+    this.isOutdated = false;
+    /** @type {any} what the values depend on, beside the line */
+    this.scene = null;
+    this.choose = button("Click two points", () => this.setNext(this.next === null ? 0 : null), {"aria-pressed": "false"});
+    this.inputs = ["First point of the line: x, y, z", "Last point of the line: x, y, z"].map((label, i) =>
+      text(label, "", (words) => this.typed(i, words)));
+    this.input = text("Field along the line", "", (words) => { this.field = words; this.sample(); }, "fields");
+    this.shown = element("div", {id: "line-plot"});
+    this.files = row("", button("Copy values", () => this.copy()),
+      button("Save values", () => does.download("line.csv", this.csv, "text/csv")));
+    this.files.hidden = true;
+    parent.replaceChildren(row("", this.choose, button("Clear", () => this.clear())), row("From", this.inputs[0]), row("To", this.inputs[1]),
+      row("Field", this.input), this.shown, this.files);
+  }
+
+  /** @param {number | null} next */
+  setNext(next) {
+    this.next = next;
+    this.choose.setAttribute("aria-pressed", String(next !== null));
+    this.choose.textContent = next === null ? "Click two points" : next === 0 ? "Click the first point" : "Click the last point";
+  }
+
+  /** @param {Json} picked whether it was for the line */
+  take(picked) {
+    if (this.next === null) {
+      return false;
+    }
+    if (!picked.hit) {
+      this.does.say("nothing is there; the line needs a point of the volume");
+      return true;
+    }
+    const isFirst = this.next === 0;
+    this.ends = isFirst ? [picked.position, null] : [this.ends[0], picked.position];
+    this.setNext(isFirst ? 1 : null);
+    this.showEnds();
+    this.sample();
+    return true;
+  }
+
+  /** @param {number} end @param {string} words */
+  typed(end, words) {
+    const all = numbers(words);
+    this.ends[end] = all?.length === 3 ? all : null;
+    if (words !== "" && !this.ends[end]) {
+      this.does.say(`'${words}' are not three numbers x, y, z`);
+    }
+    this.mark(null);
+    this.sample();
+  }
+
+  showEnds() {
+    this.ends.forEach((end, i) => { this.inputs[i].value = end ? end.map((x) => Number(x.toPrecision(9))).join(", ") : ""; });
+    this.mark(null);
+  }
+
+  /**
+   * The ends in the picture, and the place of the cursor.
+   * @param {number | null} share
+   */
+  mark(share) {
+    const [from, to] = this.ends;
+    const points = this.ends.flatMap((end) => (end ? [end] : []));
+    if (from && to && share !== null) {
+      points.push(from.map((x, i) => x + share * (to[i] - x)));
+    }
+    this.does.mark(points);
+  }
+
+  clear() {
+    this.ends = [null, null];
+    this.csv = "";
+    this.files.hidden = true;
+    this.shown.replaceChildren();
+    this.setNext(null);
+    this.showEnds();
+  }
+
+  /**
+   * Where the values change with the scene, they are asked for again.
+   * @param {Json} scene @param {string} field the scene's
+   */
+  follow(scene, field) {
+    this.input.placeholder = field;
+    const now = JSON.stringify([field, scene.volume?.time_step, scene.warp]);
+    if (now !== this.scene) {
+      this.scene = now;
+      this.sample();
+    }
+  }
+
+  async sample() {
+    const [from, to] = this.ends;
+    if (!from || !to) {
+      return;
+    }
+    this.isOutdated = this.isAsking;
+    if (this.isAsking) {
+      return;
+    }
+    this.isAsking = true;
+    const line = await this.does.ask({type: "line", from, to, ...(this.field ? {fields: [this.field]} : {})});
+    this.isAsking = false;
+    if (line && this.ends[0] === from && this.ends[1] === to) {
+      this.show(line);
+    }
+    if (this.isOutdated) {
+      this.sample();
+    }
+  }
+
+  /** @param {Json} line */
+  show(line) {
+    this.csv = line.csv;
+    this.files.hidden = false;
+    const words = line.no_breaks_because ? `where elements begin and end is not known: ${line.no_breaks_because}`
+      : `elements begin or end at ${line.breaks.length} places` + (line.n_outside ? `; ${line.n_outside} points lie in no element` : "");
+    this.shown.replaceChildren(
+      plot(/** @type {any} */ (line), (at) => this.mark(at === null ? null : at / line.length)),
+      element("p", {className: "quiet"}, [words]));
+  }
+
+  async copy() {
+    try {
+      await navigator.clipboard.writeText(this.csv);
+    } catch {
+      // Frames and plain HTTP may not have the clipboard: by a selection.
+      const area = /** @type {HTMLTextAreaElement} */ (element("textarea", {value: this.csv, readOnly: true, "aria-label": "Values"}));
+      document.body.append(area);
+      area.select();
+      const isCopied = document.execCommand("copy");
+      area.remove();
+      if (!isCopied) {
+        this.does.say("the browser does not allow to copy; save the values instead");
+      }
+    }
+  }
+}

@@ -1,0 +1,102 @@
+// A plot of values along a line, with jumps as gaps, and a cursor for the mouse and the arrow keys.
+import {arrowOf, element, setAttributes, shape} from "./controls.js";
+import {scale, short, ticks} from "./axis.js";
+
+/** @typedef {{name: string, points: [number, number | null][]}} Series */
+
+const size = [268, 190], left = 44, right = 6, top = 6, bottom = 20;
+
+/**
+ * The value of a series at a place, linear between its points; null in gaps.
+ * @param {Series} series @param {number} at
+ */
+export function valueAt(series, at) {
+  const {points} = series;
+  let i = points.findIndex((point) => point[0] >= at);
+  i = i < 0 ? points.length - 1 : i;
+  const [x1, y1] = points[i], [x0, y0] = points[Math.max(0, i - 1)];
+  return x1 <= at || x1 === x0 ? y1 : y0 === null || y1 === null ? null : y0 + ((y1 - y0) * (at - x0)) / (x1 - x0);
+}
+
+/** @param {Series[]} all */
+function rangeOf(all) {
+  let low = Infinity, high = -Infinity;
+  for (const {points} of all) {
+    for (const [, value] of points) {
+      if (value !== null) {
+        low = Math.min(low, value);
+        high = Math.max(high, value);
+      }
+    }
+  }
+  const room = high > low ? 0.05 * (high - low) : Math.max(1e-3 * Math.abs(low), 1e-12);
+  return low <= high ? [low - room, high + room] : [0, 1];
+}
+
+/**
+ * A path; a gap where there is no value.
+ * @param {Series} series @param {(x: number) => number} x @param {(y: number) => number} y
+ */
+function pathOf(series, x, y) {
+  let isDown = false;
+  return series.points.map(([at, value]) => {
+    const step = value === null ? "" : `${isDown ? "L" : "M"}${x(at).toFixed(2)} ${y(value).toFixed(2)}`;
+    isDown = value !== null;
+    return step;
+  }).join("");
+}
+
+/**
+ * @param {{series: Series[], breaks: {at: number}[], length: number}} line
+ * @param {(at: number | null) => void} onCursor the arc length that the cursor is at
+ */
+export function plot(line, onCursor) {
+  const [low, high] = rangeOf(line.series);
+  const across = scale([0, line.length], false), up = scale([low, high], false);
+  const x = (/** @type {number} */ at) => left + across.place(at) * (size[0] - left - right);
+  const y = (/** @type {number} */ value) => size[1] - bottom - up.place(value) * (size[1] - top - bottom);
+  const cursor = shape("line", {class: "cursor", y1: top, y2: size[1] - bottom, visibility: "hidden"});
+  const told = element("output", {className: "told", "aria-live": "polite"});
+  const axis = [
+    ...ticks(low, high, 5).map((value) => [
+      shape("line", {class: "grid", x1: left, x2: size[0] - right, y1: y(value), y2: y(value)}),
+      shape("text", {x: left - 4, y: y(value) + 3, "text-anchor": "end"}, [short(value)])]),
+    ...ticks(0, line.length, 5).map((at) => [shape("text", {x: x(at), y: size[1] - 6, "text-anchor": "middle"}, [short(at)])]),
+  ].flat();
+  const drawing = shape("svg", {
+    viewBox: `0 0 ${size[0]} ${size[1]}`, class: "plot", tabindex: 0, role: "img",
+    "aria-label": `${line.series.map((one) => one.name).join(", ")} over the arc length. Arrow keys move along the line.`,
+  }, [
+    shape("rect", {class: "frame", x: left, y: top, width: size[0] - left - right, height: size[1] - top - bottom}),
+    ...axis,
+    ...line.breaks.map(({at}) => shape("line", {class: "break", x1: x(at), x2: x(at), y1: size[1] - bottom, y2: size[1] - bottom - 5})),
+    ...line.series.map((one, i) => shape("path", {class: `curve curve${i % 6}`, d: pathOf(one, x, y)})),
+    cursor,
+  ]);
+  /** @type {number | null} */
+  let place = null;
+  const show = (/** @type {number | null} */ at) => {
+    place = at === null ? null : Math.min(line.length, Math.max(0, at));
+    setAttributes(cursor, place === null ? {visibility: "hidden"} : {visibility: "visible", x1: x(place), x2: x(place)});
+    told.textContent = place === null ? "" : [`s = ${short(place)}`, ...line.series.map((one) => {
+      const value = valueAt(one, /** @type {number} */ (place));
+      return `${one.name} = ${value === null ? "none" : Number(value.toPrecision(7))}`;
+    })].join(", ");
+    onCursor(place);
+  };
+  drawing.addEventListener("pointermove", (event) => {
+    const box = drawing.getBoundingClientRect();
+    show(across.value(((event.clientX - box.left) * size[0] / box.width - left) / (size[0] - left - right)));
+  });
+  drawing.addEventListener("pointerleave", () => show(null));
+  drawing.addEventListener("keydown", (event) => {
+    const way = arrowOf(event);
+    if (way) {
+      show((place ?? line.length / 2) + ((way[0] - way[1]) * line.length) / 200);
+      event.preventDefault();
+    }
+  });
+  const legend = element("p", {className: "legend"}, line.series.length < 2 ? [] :
+    line.series.map((one, i) => element("span", {className: `curve${i % 6}`}, [one.name])));
+  return element("div", {}, [drawing, legend, told]);
+}

@@ -1,0 +1,185 @@
+// The transfer function of volume rendering: density by value over the field's histogram, with points and peaks to be moved.
+import {button, check, colorRow, element, hand, movable, number, row, setAttributes, shape} from "./controls.js";
+import {bars} from "./color_scale.js";
+import {scale, short} from "./axis.js";
+
+/** @typedef {Record<string, any>} Json */
+/** @typedef {import("./editor.js").Context} Context */
+/** @typedef {{label: string, at: () => number[], move: (value: number, density: number) => void, remove?: () => void}} Grip */
+
+const width = 264, height = 120, place = "/volume_rendering";
+
+/** @param {Json} own the scene's volume_rendering @param {string} field @param {Context} context */
+export function transferEditor(own, field, context) {
+  if (own.transfer) {
+    return [element("p", {}, ["Colours and density are those of a transfer function that is given as a whole."])];
+  }
+  const map = own.color_map ?? context.scene.color_map ?? {};
+  const isOpacity = Boolean(own.opacity);
+  const key = isOpacity ? "opacity" : "density";
+  /** @type {number[][]} */
+  const points = (own[key] ?? []).map((/** @type {number[]} */ point) => [...point]);
+  /** @type {Json[]} */
+  const peaks = (own.peaks ?? []).map((/** @type {Json} */ peak) => ({...peak}));
+  const usual = context.volume.usual_density;
+  const drawing = shape("svg", {viewBox: `0 0 ${width} ${height}`, class: "transfer", role: "group",
+    "aria-label": "Density by value. Double click adds a point; arrow keys move a point, Delete removes it"});
+  const known = () => context.histograms.of(field, context.scene, draw);
+  /** @returns {[number, number] | null} */
+  const range = () => { const data = known(); return map.range ?? (data ? [data.lower, data.upper] : null); };
+  /** What is drawn without points of its own. @returns {number[][]} */
+  const base = () => {
+    const ends = range();
+    return points.length || !ends ? points : peaks.length ? [] : [[ends[0], 0], [ends[1], usual]];
+  };
+  const highest = () => (isOpacity ? 1 : 1.25 * Math.max(0, ...base().map((point) => point[1]), ...peaks.map((peak) => peak.density)) || usual);
+  // It stays while a grip is held.
+  let top = highest();
+  const axis = () => scale(range() ?? [0, 1], map.scale === "logarithmic");
+  const x = (/** @type {number} */ value) => width * Math.min(2, Math.max(-1, axis().place(value)));
+  const y = (/** @type {number} */ density) => height * (1 - density / top);
+  const placeOf = (/** @type {MouseEvent} */ event) => {
+    const box = drawing.getBoundingClientRect();
+    const clamped = (/** @type {number} */ part) => Math.min(1, Math.max(0, part));
+    return [axis().value(clamped((event.clientX - box.left) / box.width)), top * clamped(1 - (event.clientY - box.top) / box.height)];
+  };
+  const send = (/** @type {boolean} */ isDone) => context.set(place, {...own, ...(points.length ? {[key]: points} : {}), ...(peaks.length ? {peaks} : {})},
+    "density", isDone);
+
+  /** @type {Grip[]} */
+  const grips = [
+    ...points.map((point, i) => /** @type {Grip} */ ({
+      label: `Point ${i + 1} of the density`,
+      at: () => point,
+      move: (/** @type {number} */ value, /** @type {number} */ density) => {
+        const low = i > 0 ? points[i - 1][0] : -Infinity, high = i + 1 < points.length ? points[i + 1][0] : Infinity;
+        point[0] = Math.min(high, Math.max(low, value));
+        point[1] = Math.max(0, density);
+      },
+      remove: points.length > 1 ? () => { points.splice(i, 1); send(true); } : undefined,
+    })),
+    ...peaks.flatMap((peak, i) => /** @type {Grip[]} */ ([{
+      label: `Peak ${i + 1}`,
+      at: () => [peak.value, peak.density],
+      move: (/** @type {number} */ value, /** @type {number} */ density) => { peak.value = value; peak.density = Math.max(1e-3 * top, density); },
+      remove: () => removePeak(i),
+    }, {
+      label: `Width of peak ${i + 1}`,
+      at: () => [peak.value + 0.25 * peak.width, 0.5 * peak.density],
+      move: (/** @type {number} */ value) => {
+        const wide = 4 * (value - peak.value);
+        // Its ends must be other numbers than its middle.
+        peak.width = peak.value + 0.5 * wide > peak.value && peak.value - 0.5 * wide < peak.value ? wide : peak.width;
+      },
+    }])),
+  ];
+  const removePeak = (/** @type {number} */ i) => context.set(place, {...own, peaks: peaks.length > 1 ? peaks.filter((_, j) => j !== i) : undefined}, "remove a peak");
+  const nodes = grips.map((grip) => {
+    const node = shape("circle", {class: "point", r: 6, tabindex: 0, role: "slider", "aria-label": grip.label});
+    movable(node, {
+      drag: (event) => { const [value, density] = placeOf(event); grip.move(value, density); draw(); send(false); },
+      arrow: ([dx, dy]) => {
+        const [value, density] = grip.at();
+        grip.move(axis().value(axis().place(value) + 0.01 * dx), density - 0.01 * dy * top);
+        draw();
+        send(false);
+      },
+      done: () => context.release(),
+      other: (event) => {
+        const isRemoval = (event.key === "Delete" || event.key === "Backspace") && grip.remove !== undefined;
+        if (isRemoval) {
+          grip.remove?.();
+        }
+        return isRemoval;
+      },
+    });
+    node.addEventListener("contextmenu", (event) => { event.preventDefault(); grip.remove?.(); });
+    return node;
+  });
+  const insert = (/** @type {number[]} */ point) => {
+    const behind = points.findIndex((other) => other[0] > point[0]);
+    points.splice(behind < 0 ? points.length : behind, 0, point);
+    send(true);
+  };
+  drawing.addEventListener("dblclick", (event) => {
+    if (points.length && !(event.target instanceof Element && event.target.classList.contains("point"))) {
+      insert(placeOf(event));
+    }
+  });
+
+  function draw() {
+    const data = known();
+    top = hand.isBusy ? top : highest();
+    const line = base().map(([value, density]) => `${x(value)} ${y(density)}`);
+    const curve = line.length ? `M0 ${line[0].split(" ")[1]}L${line.join("L")}L${width} ${line[line.length - 1].split(" ")[1]}` : "";
+    drawing.replaceChildren(
+      ...(data && data.upper > data.lower ? bars(data, x, height, height) : []),
+      ...peaks.map((peak) => shape("path", {class: "peak",
+        d: `M${x(peak.value - 0.5 * peak.width)} ${height}L${x(peak.value)} ${y(peak.density)}L${x(peak.value + 0.5 * peak.width)} ${height}Z`})),
+      shape("path", {class: "density", d: curve}),
+      ...nodes);
+    grips.forEach((grip, i) => {
+      const [value, density] = grip.at();
+      setAttributes(nodes[i], {cx: x(value), cy: y(density), "aria-valuenow": value, "aria-valuetext": `${short(density)} at ${short(value)}`});
+    });
+  }
+  draw();
+
+  const ends = range();
+  const middle = ends ? (ends[0] + ends[1]) / 2 : 0;
+  return [
+    drawing,
+    ...(isOpacity ? [] : [row("", check("own density", points.length > 0, (is) => {
+      const {density, ...rest} = own;
+      const shown = range();
+      if (shown) {
+        context.set(place, is ? {...own, density: [[shown[0], 0], [(shown[0] + shown[1]) / 2, 0], [shown[1], usual]]} : rest, "density");
+      }
+    }))]),
+    row("", button("Add point", () => { const shown = range(); if (shown) { insert(middlePoint(points)); } }, {disabled: points.length === 0}),
+      button("Add peak", () => {
+        const shown = range();
+        if (shown && shown[1] > shown[0]) {
+          peaks.push({value: (shown[0] + shown[1]) / 2 || middle, width: 0.05 * (shown[1] - shown[0]), density: 10 * usual});
+          send(true);
+        }
+      })),
+    ...peaks.flatMap((peak, i) => peakRows(peak, i, () => send(true), () => removePeak(i))),
+  ];
+}
+
+/**
+ * In the middle of the widest gap.
+ * @param {number[][]} points
+ */
+function middlePoint(points) {
+  let widest = 0;
+  for (let i = 1; i + 1 < points.length; ++i) {
+    widest = points[i + 1][0] - points[i][0] > points[widest + 1][0] - points[widest][0] ? i : widest;
+  }
+  const [from, to] = [points[widest], points[Math.min(widest + 1, points.length - 1)]];
+  return from.map((number, i) => (number + to[i]) / 2);
+}
+
+/** @param {Json} peak @param {number} i @param {() => void} send @param {() => void} remove */
+function peakRows(peak, i, send, remove) {
+  const part = (/** @type {string} */ key) => number(`${key} of peak ${i + 1}`, peak[key], (value) => {
+    if (value !== null) {
+      peak[key] = value;
+      send();
+    }
+  });
+  return [
+    row(`Peak ${i + 1}`, part("value"), button("Remove", remove, {"aria-label": `Remove peak ${i + 1}`})),
+    row("Width", part("width"), element("span", {}, ["density"]), part("density")),
+    ...(peak.color ? [colorRow("Peak's colour", peak.color, (rgb) => { peak.color = rgb; send(); })] : []),
+    row("", check("own colour", Boolean(peak.color), (is) => {
+      if (is) {
+        peak.color = [0.9, 0.9, 0.9];
+      } else {
+        delete peak.color;
+      }
+      send();
+    })),
+  ];
+}

@@ -1,0 +1,117 @@
+#include "line_values.hpp"
+#include "message_values.hpp"
+#include "palette.hpp"
+#include "session.hpp"
+
+#include <core/base/error.hpp>
+#include <core/scene/write/write_scene.hpp>
+
+#include <algorithm>
+
+namespace elvis::serve {
+
+namespace {
+
+constexpr std::uint64_t most_saved_pixels = 64u << 20u;
+constexpr std::size_t most_tasks = 16;
+constexpr std::uint32_t most_line_points = 5000, usual_line_points = 500;
+constexpr std::size_t most_line_fields = 16;
+
+} // namespace
+
+void Session::post(const Json& message, std::string activity, Job job, bool is_awaited) {
+    std::deque<Task>& tasks = is_awaited ? m_tasks : m_later;
+    if (tasks.size() >= most_tasks) {
+        throw Error("too much is being asked at once");
+    }
+    tasks.push_back({m_asker, {{"id", message.value("id", Json())}}, std::move(activity), m_model.scene(), std::move(job)});
+    // Somebody waits for the answer; the exact picture is drawn again.
+    m_cancelled = m_cancelled || (is_awaited && m_drawing && m_drawing->stage == FrameStage::exact);
+    m_changed.notify_all();
+}
+
+Session::Json Session::pick(const Json& message) {
+    const double column = pixels(message, "column"), row = pixels(message, "row");
+    post(message, "picking", [served = m_served, column, row](const Scene& scene, const task& watch) -> Encoded {
+        return {{{"picked", pick_at(*served, scene, column, row, watch)}}, {}};
+    });
+    return {};
+}
+
+std::string Session::field_of(const Json& message) const {
+    return message.value("field", m_model.scene().field.value_or(m_served->facts.fields.at(0).name));
+}
+
+Session::Json Session::range(const Json& message) {
+    post(message, "finding a range",
+         [served = m_served, field = field_of(message)](const Scene& scene, const task&) -> Encoded {
+             const elvis_range found = served->volume.range(field, scene.time_step);
+             return {{{"minimum", found.minimum}, {"maximum", found.maximum}}, {}};
+         });
+    return {};
+}
+
+Session::Json Session::histogram(const Json& message) {
+    post(
+        message, "sampling the field",
+        [served = m_served, field = field_of(message)](const Scene& scene, const task& watch) -> Encoded {
+            return {served->histograms.grow(*served, scene, field, watch), {}};
+        },
+        false);
+    return {};
+}
+
+Session::Json Session::palette(const Json& message) {
+    Json scene = page_json();
+    scene["color_map"] = message.at("color_map");
+    return {{"points", palette_of(judged(scene).color_map)}};
+}
+
+Session::Json Session::line(const Json& message) {
+    LineWishes wishes{vector_of(message, "from"), vector_of(message, "to"), {}, usual_line_points};
+    wishes.fields = message.value("fields", std::vector<std::string>{field_of(message)});
+    if (message.contains("count")) {
+        wishes.count = static_cast<std::size_t>(number(message, "count", 2, most_line_points));
+    }
+    if (wishes.from == wishes.to) {
+        throw Error("the ends of the line are the same point");
+    }
+    if (wishes.fields.empty() || wishes.fields.size() > most_line_fields) {
+        throw Error("a line takes 1 to " + std::to_string(most_line_fields) + " fields");
+    }
+    post(message, "sampling a line", [served = m_served, wishes](const Scene& scene, const task& watch) -> Encoded {
+        return {values_along(*served, scene, wishes, watch), {}};
+    });
+    return {};
+}
+
+Session::Json Session::undecided(const Json& message) {
+    post(message, "looking for undecided pixels",
+         [served = m_served](const Scene& scene, const task& watch) { return draw_undecided(*served, scene, watch); });
+    return {};
+}
+
+Session::Json Session::save_scene(const Json&) {
+    return {{"scene", Json::parse(scene_json(m_model.scene(), m_served->page_scene).dump())},
+            {"text", scene_json(m_model.scene(), m_served->page_scene).dump(2)}};
+}
+
+Session::Json Session::save_picture(const Json& message) {
+    const std::array<std::uint32_t, 2> size = size_of(message);
+    if (std::uint64_t{size[0]} * size[1] > most_saved_pixels) {
+        throw Error("the picture would have more than 64 million pixels");
+    }
+    check_samples(m_model.scene(), size);
+    post(message, "drawing a picture to save", [served = m_served, size](const Scene& scene, const task& watch) {
+        Scene resized = scene;
+        // The shift is in pixels: a larger picture has what is looked at in the same place.
+        for (double& shift : resized.camera.image_shift) {
+            shift *= static_cast<double>(size[1]) / scene.size[1];
+        }
+        resized.size = size;
+        return draw_exactly(*served, resized, watch);
+    });
+    return {};
+}
+
+} // namespace elvis::serve

@@ -1,0 +1,232 @@
+#include "message_values.hpp"
+#include "session.hpp"
+
+#include <apps/elvis/view/model/camera_motion.hpp>
+
+#include <core/base/error.hpp>
+#include <core/scene/color/transfer.hpp>
+#include <core/scene/write/write_scene.hpp>
+
+#include <algorithm>
+
+namespace elvis::serve {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<const char*, 4> kinds = {"surface", "volume", "light", "hidden light"};
+
+/** Where a scene's JSON has it, as a JSON Pointer: lights that are off come after those that are on. */
+std::string pointer_of(const Scene& scene, const view::ItemId& item) {
+    const std::size_t n_lit = scene.lighting ? scene.lighting->lights.size() : 0;
+    switch (item.kind) {
+    case view::ItemKind::surface:
+        return "/surfaces/" + std::to_string(item.index);
+    case view::ItemKind::volume:
+        return "/volume_rendering";
+    case view::ItemKind::light:
+        return "/lighting/lights/" + std::to_string(item.index);
+    default:
+        return "/lighting/lights/" + std::to_string(n_lit + item.index);
+    }
+}
+
+json item_json(const Scene& scene, const view::ItemId& item) {
+    return {{"kind", kinds[static_cast<std::size_t>(item.kind)]},
+            {"index", item.index},
+            {"pointer", pointer_of(scene, item)},
+            {"label", view::item_label(scene, item)},
+            {"name", view::item_kind_name(scene, item)},
+            {"shown", view::is_shown(scene, item)}};
+}
+
+json name_or_null(const std::optional<std::string>& name) { return name ? json(*name) : json(); }
+
+} // namespace
+
+Session::Json Session::page_json() const { return Json::parse(scene_json(m_model.scene(), m_served->page_scene).dump()); }
+
+Scene Session::judged(const Json& scene) const {
+    m_served->paths.check(scene);
+    const std::string folder = std::filesystem::path(m_served->page_scene).parent_path().string();
+    m_served->library.parse_scene(scene.dump(), folder);
+    Scene wanted = scene_of(scene, m_served->page_scene);
+    if (wanted.size[0] > most_pixels_across || wanted.size[1] > most_pixels_across) {
+        throw Error("'image.size' is larger than the page can be");
+    }
+    check_samples(wanted, wanted.size);
+    if (wanted.time_step >= m_served->facts.times.size() && wanted.time_step > 0) {
+        throw Error("the volume has " + std::to_string(m_served->facts.times.size()) + " time steps");
+    }
+    return wanted;
+}
+
+void Session::edit(const std::string& what, const Json& scene) {
+    Scene wanted = judged(scene);
+    elvis::set_camera(wanted.camera, resolve_camera(wanted, m_served->facts.extent(), {}));
+    m_is_first_view = m_is_first_view && scene.value("camera", Json()) == page_json()["camera"];
+    m_taken.reset();
+    m_model.edit(what, std::move(wanted));
+    edited(false);
+}
+
+void Session::edited(bool is_moving) {
+    changed(is_moving);
+    tell_state();
+}
+
+Session::Json Session::set(const Json& message) {
+    Json scene = page_json();
+    const auto pointer = message.at("pointer").get<std::string>();
+    set_at(scene, pointer, message.value("value", Json()));
+    edit(message.value("name", pointer), scene);
+    return Json::object();
+}
+
+Session::Json Session::merge(const Json& message) {
+    Json scene = page_json();
+    scene.merge_patch(message.at("patch"));
+    edit(message.value("name", "scene"), scene);
+    return Json::object();
+}
+
+Session::Json Session::load(const Json& message) {
+    Json scene = message.at("scene");
+    if (scene.is_object() && !scene.contains("volume")) {
+        scene["volume"] = page_json()["volume"];
+    }
+    const auto size = m_model.scene().size;
+    m_model.end_gesture();
+    edit("load a scene", scene);
+    m_model.end_gesture();
+    m_model.set_size(size);
+    edited(false);
+    return Json::object();
+}
+
+Session::Json Session::undo(const Json&) {
+    m_taken.reset();
+    m_model.undo();
+    edited(false);
+    return Json::object();
+}
+
+Session::Json Session::redo(const Json&) {
+    m_taken.reset();
+    m_model.redo();
+    edited(false);
+    return Json::object();
+}
+
+view::ItemId Session::item_of(const Json& message) const {
+    const auto kind = std::ranges::find(kinds, message.at("kind").get<std::string>());
+    const view::ItemId item{static_cast<view::ItemKind>(kind - kinds.begin()), message.at("index").get<std::size_t>()};
+    if (kind == kinds.end() || !view::exists(m_model.scene(), item)) {
+        throw Error("there is no such item");
+    }
+    return item;
+}
+
+void Session::change_items(const std::string& what, Scene&& scene) {
+    m_taken.reset();
+    m_model.end_gesture();
+    m_model.edit(what, std::move(scene));
+    m_model.end_gesture();
+    edited(false);
+}
+
+Session::Json Session::add(const Json& message) {
+    const auto name = message.at("name").get<std::string>();
+    const auto& all = view::new_items();
+    const auto found = std::ranges::find_if(all, [&](const view::NewItemInfo& info) { return info.name == name; });
+    if (found == all.end() || !view::can_add(m_model.scene(), m_served->facts, found->item)) {
+        throw Error("'" + name.substr(0, 40) + "' cannot be added");
+    }
+    const view::NewItem item = found->item;
+    double middle = 0;
+    if (item == view::NewItem::isosurface) {
+        if (!message.contains("middle")) {
+            throw Error("an isosurface needs 'middle', a value of the field");
+        }
+        middle = number(message, "middle", -1e300, 1e300);
+    }
+    Scene scene = m_model.scene();
+    const view::ItemId added = view::add(scene, m_served->facts, item, middle);
+    const std::string what = "add " + view::item_kind_name(scene, added);
+    change_items(what, std::move(scene));
+    return item_json(m_model.scene(), added);
+}
+
+Session::Json Session::remove(const Json& message) {
+    const view::ItemId item = item_of(message);
+    Scene scene = m_model.scene();
+    const std::string what = "remove " + view::item_kind_name(scene, item);
+    view::remove(scene, item);
+    change_items(what, std::move(scene));
+    return Json::object();
+}
+
+Session::Json Session::show(const Json& message) {
+    const view::ItemId item = item_of(message);
+    const bool is_shown = message.at("shown").get<bool>();
+    Scene scene = m_model.scene();
+    const std::string what = (is_shown ? "show " : "hide ") + view::item_kind_name(scene, item);
+    view::set_shown(scene, item, is_shown);
+    change_items(what, std::move(scene));
+    return Json::object();
+}
+
+Session::Json Session::copy(const Json& message) {
+    const view::ItemId item = item_of(message);
+    Scene scene = m_model.scene();
+    const std::string what = "copy " + view::item_kind_name(scene, item);
+    const view::ItemId copied = view::duplicate(scene, item);
+    change_items(what, std::move(scene));
+    return item_json(m_model.scene(), copied);
+}
+
+Session::Json Session::state() const {
+    const Scene& scene = m_model.scene();
+    Json items = Json::array();
+    for (const view::ItemId& item : view::items_of(scene)) {
+        items.push_back(item_json(scene, item));
+    }
+    Json addable = Json::array();
+    for (const view::NewItemInfo& info : view::new_items()) {
+        if (view::can_add(scene, m_served->facts, info.item)) {
+            addable.push_back({{"name", info.name}, {"help", info.help}});
+        }
+    }
+    return {{"type", "state"},
+            {"revision", m_model.revision()},
+            {"scene", page_json()},
+            {"items", std::move(items)},
+            {"addable", std::move(addable)},
+            {"undo", name_or_null(m_model.undo_name())},
+            {"redo", name_or_null(m_model.redo_name())}};
+}
+
+Session::Json Session::hello() const { return {{"type", "hello"}, {"session", m_id}, {"volume", volume()}}; }
+
+Session::Json Session::volume() const {
+    const view::VolumeFacts& facts = m_served->facts;
+    Json fields = Json::array();
+    for (const FieldInfo& field : facts.fields) {
+        fields.push_back({{"name", field.name}, {"unit", field.unit}, {"components", field.n_components}});
+    }
+    Json views = Json::array();
+    for (const view::StandardView& view : view::standard_views()) {
+        views.push_back(view.name);
+    }
+    return {{"path", std::filesystem::path(facts.path).filename().string()},
+            {"dimension", facts.dimension},
+            {"elements", facts.n_elements},
+            {"bounds", facts.bounds},
+            {"fields", std::move(fields)},
+            {"times", facts.times},
+            {"views", std::move(views)},
+            {"usual_density", default_density(facts.diagonal())}};
+}
+
+} // namespace elvis::serve
