@@ -163,6 +163,8 @@ private:
     std::optional<Scene> m_taken;
     /** Points whose places in the picture the page is told. */
     std::vector<Vector3> m_marked;
+    /** Grows with what is selected or marked; a frame may come that was begun before. */
+    std::uint64_t m_overlay_version = 0;
     FrameSchedule m_schedule{20};
     /** Before the next picture, and when no picture is wanted. */
     std::deque<Task> m_tasks, m_later;

@@ -57,7 +57,7 @@ Session::Json Session::overlay_json() const {
     for (const Vector3& point : m_marked) {
         points.push_back(place_json(camera, size, point));
     }
-    return {{"handles", std::move(handles)}, {"points", std::move(points)}};
+    return {{"version", m_overlay_version}, {"handles", std::move(handles)}, {"points", std::move(points)}};
 }
 
 Session::Json Session::overlay(const Json& message) {
@@ -75,6 +75,7 @@ Session::Json Session::overlay(const Json& message) {
         }
         m_marked = std::move(points);
     }
+    ++m_overlay_version;
     return overlay_json();
 }
 

@@ -20,13 +20,16 @@ def free_port():
 
 
 class Browser:
-    def __init__(self, downloads, size=(1000, 700), dark=False):
+    def __init__(self, downloads, size=(1000, 700), dark=False, phone=None):
+        """`phone`: width and height of a screen that is touched; windows are not that narrow."""
         self.port = free_port()
         self.driver = subprocess.Popen([DRIVER, f"--port={self.port}"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         arguments = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", f"--window-size={size[0]},{size[1]}",
                      *(["--blink-settings=preferredColorScheme=0"] if dark else [])]
         options = {"binary": CHROMIUM, "args": arguments,
                    "prefs": {"download.default_directory": downloads, "download.prompt_for_download": False}}
+        if phone:
+            options["mobileEmulation"] = {"deviceMetrics": {"width": phone[0], "height": phone[1], "pixelRatio": 2, "touch": True}}
         capabilities = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
         end = time.monotonic() + 30
         while True:
@@ -95,6 +98,16 @@ class Browser:
                           "y": round(start[1] + way[1] * i / steps)})
         moves.append({"type": "pointerUp", "button": button})
         self.call("POST", "/actions", {"actions": [{"type": "pointer", "id": pointer, "parameters": {"pointerType": pointer}, "actions": moves}]})
+
+    def pinch(self, middle, before, after, steps=8):
+        """Two fingers, level, whose distance changes."""
+        fingers = []
+        for side in (-1, 1):
+            places = [round(middle[0] + side * (before + (after - before) * i / steps) / 2) for i in range(steps + 1)]
+            moves = [{"type": "pointerMove", "duration": 20 if i else 0, "x": x, "y": middle[1]} for i, x in enumerate(places)]
+            fingers.append({"type": "pointer", "id": f"finger{side}", "parameters": {"pointerType": "touch"},
+                            "actions": [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pointerUp", "button": 0}]})
+        self.call("POST", "/actions", {"actions": fingers})
 
     def press(self, *keys):
         actions = [{"type": kind, "value": key} for key in keys for kind in ("keyDown", "keyUp")]

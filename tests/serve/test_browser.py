@@ -9,6 +9,7 @@ import browser
 from serving import Server
 from test_serve import make_volume, run
 
+LEFT, UP, RIGHT, DELETE = "\ue012", "\ue013", "\ue014", "\ue017"
 SETTLED = "window.elvis && elvis.frame().stage === 'exact' && elvis.frame().revision >= elvis.state().revision"
 
 
@@ -108,23 +109,143 @@ class BrowserTest(unittest.TestCase):
 
         page.run("document.getElementById('view').focus()")
         revision = page.run("return elvis.frame().revision")
-        page.press("\ue012", "\ue012", "+")  # Left, left, nearer.
+        page.press(LEFT, LEFT, "+")  # Left, left, nearer.
         page.wait(f"{SETTLED} && elvis.frame().revision > {revision}")
         page.click("#undecided")
         page.wait("document.getElementById('counts').textContent.includes('undecided')")
         self.shot("keys.png")
-        self.assertEqual(page.run("""return [...document.querySelectorAll('button, input, select')].filter(
-            (e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.closest('label'))).map((e) => e.outerHTML)"""), [])
+        self.assertEqual(self.without_names(), [])
         self.assertEqual(page.complaints(), [])
 
-    def test_dark_and_small(self):
-        small = browser.Browser(self.folder, size=(600, 900), dark=True)
-        self.addCleanup(small.close)
-        small.open(self.server.url)
-        small.wait(SETTLED)
-        small.screenshot(os.path.join(self.shots, "dark.png"))
-        self.assertTrue(small.run("return matchMedia('(prefers-color-scheme: dark)').matches"))
-        self.assertGreater(small.run("return document.getElementById('view').clientHeight"), 100)
+    def test_dark_on_a_phone(self):
+        """All of the volume is seen at first, panels do not lie over each other, and two fingers zoom and move."""
+        phone = browser.Browser(self.folder, dark=True, phone=(400, 800))
+        self.addCleanup(phone.close)
+        phone.open(self.server.url)
+        phone.wait(SETTLED)
+        phone.screenshot(os.path.join(self.shots, "phone.png"))
+        self.assertTrue(phone.run("return matchMedia('(prefers-color-scheme: dark)').matches"))
+        boxes = phone.run("""return ['bar', 'view', 'panel', 'status'].map((id) => {
+            const box = document.getElementById(id).getBoundingClientRect(); return [box.top, box.bottom, box.left, box.right]})""")
+        for above, below in zip(boxes, boxes[1:]):
+            self.assertLessEqual(above[1], below[0])
+        self.assertTrue(all(0 <= left and right <= 400 and bottom <= 800 for _, bottom, left, right in boxes), boxes)
+        self.assertGreater(boxes[1][1] - boxes[1][0], 200)
+        corners = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        self.assertTrue(phone.run("""const corners = arguments[0];
+            return elvis.connection.ask({type: 'overlay', points: corners}).then(({points}) =>
+                points.every(([x, y]) => x >= 0 && y >= 0 && x <= elvis.picture.size[0] && y <= elvis.picture.size[1]))""", corners))
+
+        middle = [200, round((boxes[1][0] + boxes[1][1]) / 2)]
+        distance = """return elvis.connection.ask({type: 'save scene'}).then(({scene: {camera}}) =>
+            Math.hypot(...camera.eye.map((x, i) => x - camera.look_at[i])))"""
+        before, revision = phone.run(distance), phone.run("return elvis.frame().revision")
+        phone.pinch(middle, 60, 120)
+        phone.wait(f"{SETTLED} && elvis.frame().revision > {revision}")
+        self.assertAlmostEqual(phone.run(distance), before / 2, delta=0.05 * before)
+        self.assertEqual(phone.complaints(), [])
+
+    def test_tools_by_hand_and_by_keys(self):
+        page = self.page
+        page.open(self.server.url)
+        page.wait(SETTLED)
+        scene = "elvis.state().scene"
+        page.run("document.getElementById('new-item').value = 'Cut plane'")
+        page.click("#add")
+        page.wait("document.querySelectorAll('#items li').length === 2")
+        page.click("#items li:first-child input")
+        page.wait("document.querySelectorAll('.grip').length === 2")
+        page.wait(SETTLED)
+
+        # Handles: dragged, then moved by keys, each of it one step.
+        plane = f"{scene}.surfaces[1].plane"
+        at = page.run("const box = document.querySelector('.grip').getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]")
+        page.drag([round(x) for x in at], (-18, 11))
+        page.wait(f"{SETTLED} && {plane}[3] !== 0 && Math.abs({plane}[3]) > 0.05")
+        moved = page.run(f"return {plane}")
+        self.assertEqual(moved[:3], [0, 0, 1])
+        page.run("document.querySelector('.grip[data-name=turn]').focus()")
+        page.press(RIGHT)
+        page.wait(f"{SETTLED} && {plane}[2] < 1")
+        self.shot("handles.png")
+        page.click("#undo")
+        page.wait(f"{plane}[2] === 1")
+
+        # A line by two clicks, its cursor by keys, its values as text.
+        page.click("#items li:first-child .label")
+        page.wait("document.querySelectorAll('.grip').length === 0")
+        page.run("[...document.querySelectorAll('#line button')][0].click()")
+        middle = page.run("""const box = document.getElementById('view').getBoundingClientRect();
+                             return [Math.round(box.left + box.width / 2), Math.round(box.top + box.height / 2)]""")
+        page.drag([middle[0] - 40, middle[1]], (0, 0), steps=1)
+        page.wait("document.querySelectorAll('#line input')[0].value !== ''")
+        page.drag([middle[0] + 30, middle[1] + 20], (0, 0), steps=1)
+        page.wait("document.querySelector('#line-plot path.curve')")
+        self.assertIsNone(page.run("return document.querySelector('#picked table')"))
+        page.run("document.querySelector('.plot').focus()")
+        page.press(RIGHT, RIGHT)
+        page.wait("document.querySelector('.told').textContent.includes('p = ')")
+        page.wait("document.querySelectorAll('#marks .mark').length === 3")
+        self.shot("line.png")
+        page.run("[...document.querySelectorAll('#line button')].find((b) => b.textContent === 'Save values').click()")
+        self.assertTrue(self.downloaded("line.csv").startswith(b"arc_length,x,y,z,element,p\n"))
+
+        # The range by keys.
+        page.run("document.querySelector('[aria-label=\"Upper end of the colours\"]').focus()")
+        page.press(LEFT, LEFT, LEFT)
+        page.wait(f"{scene}.color_map && {scene}.color_map.range && {scene}.color_map.range[1] < 2")
+        self.assertEqual(page.run("return document.activeElement.getAttribute('aria-label')"), "Upper end of the colours")
+
+        # The transfer function: points are made, moved and removed.
+        page.run("document.getElementById('new-item').value = elvis.state().addable.find((item) => item.name.startsWith('Volume')).name")
+        page.click("#add")
+        page.wait("document.querySelector('.transfer')")
+        density = f"{scene}.volume_rendering.density"
+        self.by_label("own density")
+        page.wait(f"{density} && {density}.length === 3")
+        page.run("[...document.querySelectorAll('#item-editor button')].find((b) => b.textContent === 'Add point').click()")
+        page.wait(f"{density}.length === 4")
+        page.run("document.querySelector('[aria-label=\"Point 2 of the density\"]').focus()")
+        page.press(UP, UP, RIGHT)
+        page.wait(f"{density}[1][1] > 0")
+        page.press(DELETE)
+        page.wait(f"{density}.length === 3")
+        page.run("[...document.querySelectorAll('#item-editor button')].find((b) => b.textContent === 'Add peak').click()")
+        page.wait(f"{scene}.volume_rendering.peaks")
+        page.wait(SETTLED)
+        self.shot("transfer.png")
+
+        # Light and annotation.
+        page.run("document.getElementById('new-item').value = elvis.state().addable.find((item) => item.name.startsWith('Point light')).name")
+        page.click("#add")
+        page.wait(f"{scene}.lighting.lights")
+        page.run("const x = document.querySelector('[aria-label=\"position x\"]'); x.value = 3; x.onchange()")
+        page.wait(f"{scene}.lighting.lights[0].position[0] === 3")
+        page.run("const t = document.querySelector('[aria-label=\"Title of the picture\"]'); t.value = 'Mine'; t.onchange()")
+        page.wait(f"{scene}.image.annotation.title === 'Mine'")
+        page.wait(SETTLED)
+        self.shot("lights.png")
+
+        # Play.
+        page.click("#play")
+        page.wait(f"{scene}.volume.time_step === 1")
+        page.wait(f"{scene}.volume.time_step === 2")
+        page.click("#play")
+        page.wait("document.getElementById('play').textContent === 'Play'")
+        page.wait(SETTLED)
+        step = page.run(f"return {scene}.volume.time_step")
+        self.assertEqual(page.run(f"return {scene}.volume.time_step"), step)
+        self.assertEqual(self.without_names(), [])
+        self.assertEqual(page.run("return document.getElementById('messages').innerText"), "")
+        self.assertEqual(page.complaints(), [])
+
+    def by_label(self, words):
+        self.page.run("[...document.querySelectorAll('label')].find((l) => l.textContent.trim() === arguments[0]).querySelector('input').click()", words)
+
+    def without_names(self):
+        """Controls that a screen reader has no name for."""
+        return self.page.run("""return [...document.querySelectorAll('button, input, select, [tabindex]')].filter(
+            (e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.closest('label'))).map((e) => e.outerHTML)""")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 // The colours of a map with the field's histogram above them, and the range as two grips.
-import {button, element, hexOf, movable, row, setAttributes, shape} from "./controls.js";
+import {button, buttons, element, hexOf, movable, setAttributes, shape} from "./controls.js";
 import {scale, short} from "./axis.js";
 
 /** @typedef {Record<string, any>} Json */
@@ -26,8 +26,10 @@ export function bars(known, x, base, most) {
 export function colorScale(place, map, field, context) {
   const isLogarithmic = map.scale === "logarithmic";
   const drawing = shape("svg", {viewBox: `0 0 ${width} ${height}`, class: "scale"});
+  // Grips stay where they are: what is taken out loses the focus.
+  const back = shape("g");
   const ends = element("p", {className: "ends"});
-  const buttons = row("");
+  const choices = buttons();
   /** @type {[number, number] | null} */
   let range = map.range ?? null;
   /** @type {number[][]} */
@@ -84,11 +86,10 @@ export function colorScale(place, map, field, context) {
     domain ??= isLogarithmic && !(low > 0) ? shown : [low, high];
     const [from, to] = shown.map(x);
     const scaled = scale(shown, isLogarithmic);
-    drawing.replaceChildren(
+    back.replaceChildren(
       ...(data && data.upper > data.lower ? bars(data, x, above, above) : []),
       shape("rect", {class: "outside", x: 0, y: above, width, height: bar}),
-      ...gradient(colors, (at) => x(scaled.value(at))),
-      ...grips);
+      ...gradient(colors, (at) => x(scaled.value(at))));
     [from, to].forEach((at, i) => {
       setAttributes(grips[i], {d: `M${at} 0V${height}M${at - 4} ${height}H${at + 4}V${above}H${at - 4}Z`, "aria-valuenow": shown[i],
         "aria-valuemin": low, "aria-valuemax": high, "aria-valuetext": short(shown[i])});
@@ -96,14 +97,15 @@ export function colorScale(place, map, field, context) {
     ends.textContent = data ? `${field}: ${short(data.lower)} to ${short(data.upper)}` : "";
     const quantiles = data?.quantiles;
     const most = data ? Math.max(Math.abs(data.lower), Math.abs(data.upper)) : 0;
-    buttons.replaceChildren(
-      button("Automatic", () => context.set(`${place}/color_map/range`, null, "range"), {disabled: range === null, title: "The field's range at each time step"}),
+    choices.replaceChildren(
+      button("Auto", () => context.set(`${place}/color_map/range`, null, "range"), {disabled: range === null, title: "The field's range at each time step"}),
       button("±", () => set([-most, most], true), {disabled: isLogarithmic || !(most > 0), title: "Symmetric", "aria-label": "Symmetric range"}),
       button("2-98 %", () => quantiles && set([quantiles[0], quantiles[3]], true), {disabled: !quantiles, title: "Without the lowest and the highest hundredths of the volume"}),
       button("10-90 %", () => quantiles && set([quantiles[1], quantiles[2]], true), {disabled: !quantiles}));
   }
+  drawing.append(back, ...grips);
   draw();
-  return [drawing, ends, buttons];
+  return [drawing, ends, choices];
 }
 
 /**

@@ -14,6 +14,9 @@ export function element(tag, properties = {}, children = []) {
   return node;
 }
 
+/** @param {(Node | string)[]} all */
+export const buttons = (...all) => element("p", {className: "row buttons"}, all);
+
 const drawing = "http://www.w3.org/2000/svg";
 
 /**

@@ -33,7 +33,7 @@ function mapRows(place, map, field, context) {
   };
   const low = number("Lower end of the range", range[0], (value) => setRange([value, high.value === "" ? null : Number(high.value)]));
   const high = number("Upper end of the range", range[1], (value) => setRange([low.value === "" ? null : Number(low.value), value]));
-  low.placeholder = high.placeholder = "automatic";
+  low.placeholder = high.placeholder = "auto";
   const shown = map?.points || map?.file ? "own" : map?.name ?? "";
   const isOwn = place === "" || map !== undefined;
   return [

@@ -1,5 +1,5 @@
 // Light: what comes from everywhere and from the eye, highlights, and single lights.
-import {check, colorRow, number, numbers, row, slider, text} from "./controls.js";
+import {check, colorRow, number, row, slider} from "./controls.js";
 
 /** @typedef {Record<string, any>} Json */
 /** @typedef {import("./editor.js").Context} Context */
@@ -34,13 +34,7 @@ export function lightRows(place, light, {set}) {
     }
   };
   return [
-    row(key === "position" ? "Position" : "Direction", text(`${key}: x, y, z`, vector.map((/** @type {number} */ x) => Number(x.toPrecision(6))).join(", "), (words) => {
-      const all = numbers(words);
-      if (all?.length === 3) {
-        put(all);
-      }
-    })),
-    ...["x", "y", "z"].map((name, i) => row(name, number(`${key} ${name}`, vector[i], (value) => {
+    row(key === "position" ? "Position" : "Direction", ...["x", "y", "z"].map((name, i) => number(`${key} ${name}`, Number(vector[i].toPrecision(9)), (value) => {
       if (value !== null) {
         put(vector.map((/** @type {number} */ old, /** @type {number} */ j) => (i === j ? value : old)));
       }

@@ -1,5 +1,5 @@
 // Values along a line: its ends by two clicks or as numbers, the plot, and the values as text.
-import {button, element, numbers, row, text} from "./controls.js";
+import {button, buttons, element, numbers, row, text} from "./controls.js";
 import {plot} from "./plot.js";
 
 /** @typedef {Record<string, any>} Json */
@@ -27,10 +27,10 @@ export class LineProbe {
       text(label, "", (words) => this.typed(i, words)));
     this.input = text("Field along the line", "", (words) => { this.field = words; this.sample(); }, "fields");
     this.shown = element("div", {id: "line-plot"});
-    this.files = row("", button("Copy values", () => this.copy()),
+    this.files = buttons(button("Copy values", () => this.copy()),
       button("Save values", () => does.download("line.csv", this.csv, "text/csv")));
     this.files.hidden = true;
-    parent.replaceChildren(row("", this.choose, button("Clear", () => this.clear())), row("From", this.inputs[0]), row("To", this.inputs[1]),
+    parent.replaceChildren(buttons(this.choose, button("Clear", () => this.clear())), row("From", this.inputs[0]), row("To", this.inputs[1]),
       row("Field", this.input), this.shown, this.files);
   }
 

@@ -39,13 +39,15 @@ picture.onFrame = showFrame;
 /** @param {Json} message */
 const ask = (message) => connection.ask(message).catch((error) => { say(error); return null; });
 
-const overlay = new Overlay($("marks"), (message) => connection.tell(message), (x, y) => picture.place(x, y));
+const overlay = new Overlay($("marks"), {tell: (message) => connection.tell(message), release}, (x, y) => picture.place(x, y));
 const histograms = makeHistograms((message) => connection.ask(message));
 const lineProbe = new LineProbe($("line"), {
   ask, say, download,
   mark: (points) => ask({type: "overlay", points}).then(showOverlay),
 });
 let overlaid = "";
+/** What lists and editors were made of: what has not changed is left to the hand. */
+const shown = {items: "", editors: ""};
 
 /** @param {Json | null} told places of handles and points in the picture */
 function showOverlay(told) {
@@ -79,7 +81,9 @@ function receive(message) {
     volume = message.volume;
     document.title = `${volume.path} - ElVis`;
     showViews();
+    shown.editors = "";
     overlaid = "";
+    overlay.version = 0;
     lineProbe.mark(null);
     picture.resize();
   } else if (message.type === "state") {
@@ -176,15 +180,7 @@ function showState() {
   const inHand = hand.isBusy || document.activeElement instanceof HTMLInputElement && document.activeElement.type === "range" &&
     document.activeElement.matches(":active");
   if (!inHand) {
-    const context = {scene: state.scene, volume, set, histograms, release: () => connection.tell({type: "release"})};
-    keepFocus(() => showScene($("scene-editor"), context));
-    lineProbe.follow(state.scene, sceneField(context));
-    const item = state.items.find((/** @type {Json} */ one) => key(one) === selected);
-    $("item-section").hidden = !item;
-    if (item) {
-      $("item-title").textContent = item.label;
-      keepFocus(() => showItem($("item-editor"), item, context));
-    }
+    showEditors();
   }
   selectOnServer();
   showTime();
@@ -196,30 +192,61 @@ function showState() {
   }
 }
 
+function showEditors() {
+  const item = state.items.find((/** @type {Json} */ one) => key(one) === selected);
+  const {camera, views, ...looks} = state.scene;
+  const now = JSON.stringify([item, looks]);
+  if (now === shown.editors) {
+    return;
+  }
+  shown.editors = now;
+  const context = {scene: state.scene, volume, set, histograms, release};
+  keepFocus(() => showScene($("scene-editor"), context));
+  lineProbe.follow(state.scene, sceneField(context));
+  $("item-section").hidden = !item;
+  if (item) {
+    $("item-title").textContent = item.label;
+    keepFocus(() => showItem($("item-editor"), item, context));
+  }
+}
+
+/** The hand has let go: what was held comes to show what the scene says. */
+function release() {
+  connection.tell({type: "release"});
+  showState();
+}
+
 /**
  * Controls are made anew; the one with the focus keeps it.
  * @param {() => void} work
  */
 function keepFocus(work) {
-  const label = document.activeElement?.getAttribute("aria-label");
-  const parent = document.activeElement?.closest("#item-editor, #scene-editor");
+  const nameOf = (/** @type {Element} */ node) => node.getAttribute("aria-label") ?? node.textContent;
+  const name = document.activeElement && nameOf(document.activeElement);
+  const parent = document.activeElement?.closest("#item-editor, #scene-editor, #items");
   work();
-  if (label && parent) {
-    /** @type {HTMLElement | null} */ (parent.querySelector(`[aria-label="${CSS.escape(label)}"]`))?.focus();
+  if (name && parent && !parent.contains(document.activeElement)) {
+    const all = [...parent.querySelectorAll("button, input, select, [tabindex]")];
+    /** @type {HTMLElement | undefined} */ (all.find((node) => nameOf(node) === name))?.focus();
   }
 }
 
 function showItems() {
+  const now = JSON.stringify([state.items, state.addable, selected]);
+  if (now === shown.items) {
+    return;
+  }
+  shown.items = now;
   const list = state.items.map((/** @type {Json} */ item) => {
-    const shown = element("input", {type: "checkbox", checked: item.shown, "aria-label": `Show ${item.label}`});
-    shown.onchange = () => ask({type: "show", kind: item.kind, index: item.index, shown: /** @type {HTMLInputElement} */ (shown).checked});
+    const visible = element("input", {type: "checkbox", checked: item.shown, "aria-label": `Show ${item.label}`});
+    visible.onchange = () => ask({type: "show", kind: item.kind, index: item.index, shown: /** @type {HTMLInputElement} */ (visible).checked});
     const label = element("button", {className: "label", "aria-pressed": String(key(item) === selected)}, [item.label]);
     label.onclick = () => { selected = key(item); showState(); };
     const remove = element("button", {"aria-label": `Remove ${item.label}`, title: "Remove"}, ["✕"]);
     remove.onclick = () => ask({type: "remove", kind: item.kind, index: item.index});
-    return element("li", {className: key(item) === selected ? "selected" : ""}, [shown, label, remove]);
+    return element("li", {className: key(item) === selected ? "selected" : ""}, [visible, label, remove]);
   });
-  $("items").replaceChildren(...list);
+  keepFocus(() => $("items").replaceChildren(...list));
   const before = $("new-item").value;
   $("new-item").replaceChildren(...state.addable.map((/** @type {Json} */ item) => element("option", {value: item.name, title: item.help}, [item.name])));
   $("new-item").value = state.addable.some((/** @type {Json} */ item) => item.name === before) ? before : state.addable[0]?.name ?? "";

@@ -4,10 +4,13 @@ import {movable, setAttributes, shape} from "./controls.js";
 /** @typedef {{name: string, help: string, at: number[] | null, tied_to: number[] | null, way: number[] | null}} Handle */
 
 export class Overlay {
-  /** @param {SVGSVGElement} svg @param {(message: Record<string, any>) => void} tell @param {(x: number, y: number) => number[]} place */
-  constructor(svg, tell, place) {
+  /**
+   * @param {SVGSVGElement} svg @param {{tell: (message: Record<string, any>) => void, release: () => void}} does
+   * @param {(x: number, y: number) => number[]} place a place of the page in pixels of the picture
+   */
+  constructor(svg, does, place) {
     this.svg = svg;
-    this.tell = tell;
+    this.does = does;
     this.place = place;
     /** @type {Handle[]} */
     this.handles = [];
@@ -16,16 +19,22 @@ export class Overlay {
     this.marks = shape("g");
     svg.append(this.marks, this.ties, this.grips);
     this.names = "";
+    this.version = 0;
     /** @type {{index: number, from: number[], to: number[]} | null} what is moved, from where to where in the picture */
     this.held = null;
     this.isWaiting = false;
   }
 
   /**
-   * @param {{handles: Handle[], points: (number[] | null)[]}} overlay places in the picture
+   * Places of an older selection are dropped.
+   * @param {{version: number, handles: Handle[], points: (number[] | null)[]}} overlay places in the picture
    * @param {number[]} size of the picture @param {number} pixels of the picture in one of the page
    */
   show(overlay, size, pixels) {
+    if (overlay.version < this.version) {
+      return;
+    }
+    this.version = overlay.version;
     setAttributes(this.svg, {viewBox: `0 0 ${size[0]} ${size[1]}`});
     this.handles = overlay.handles;
     const names = overlay.handles.map((handle) => handle.help).join("\n");
@@ -78,7 +87,7 @@ export class Overlay {
       done: () => {
         this.flush();
         this.held = null;
-        this.tell({type: "release"});
+        this.does.release();
       },
     });
     return grip;
@@ -101,7 +110,7 @@ export class Overlay {
   flush() {
     if (this.isWaiting && this.held) {
       const {index, from, to} = this.held;
-      this.tell({type: "drag", handle: index, from, to, time: performance.now()});
+      this.does.tell({type: "drag", handle: index, from, to, time: performance.now()});
     }
     this.isWaiting = false;
   }

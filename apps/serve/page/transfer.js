@@ -1,5 +1,5 @@
 // The transfer function of volume rendering: density by value over the field's histogram, with points and peaks to be moved.
-import {button, check, colorRow, element, hand, movable, number, row, setAttributes, shape} from "./controls.js";
+import {button, buttons, check, colorRow, element, hand, movable, number, row, setAttributes, shape} from "./controls.js";
 import {bars} from "./color_scale.js";
 import {scale, short} from "./axis.js";
 
@@ -24,6 +24,8 @@ export function transferEditor(own, field, context) {
   const usual = context.volume.usual_density;
   const drawing = shape("svg", {viewBox: `0 0 ${width} ${height}`, class: "transfer", role: "group",
     "aria-label": "Density by value. Double click adds a point; arrow keys move a point, Delete removes it"});
+  // Grips stay where they are: what is taken out loses the focus.
+  const back = shape("g");
   const known = () => context.histograms.of(field, context.scene, draw);
   /** @returns {[number, number] | null} */
   const range = () => { const data = known(); return map.range ?? (data ? [data.lower, data.upper] : null); };
@@ -112,21 +114,19 @@ export function transferEditor(own, field, context) {
     top = hand.isBusy ? top : highest();
     const line = base().map(([value, density]) => `${x(value)} ${y(density)}`);
     const curve = line.length ? `M0 ${line[0].split(" ")[1]}L${line.join("L")}L${width} ${line[line.length - 1].split(" ")[1]}` : "";
-    drawing.replaceChildren(
+    back.replaceChildren(
       ...(data && data.upper > data.lower ? bars(data, x, height, height) : []),
       ...peaks.map((peak) => shape("path", {class: "peak",
         d: `M${x(peak.value - 0.5 * peak.width)} ${height}L${x(peak.value)} ${y(peak.density)}L${x(peak.value + 0.5 * peak.width)} ${height}Z`})),
-      shape("path", {class: "density", d: curve}),
-      ...nodes);
+      shape("path", {class: "density", d: curve}));
     grips.forEach((grip, i) => {
       const [value, density] = grip.at();
       setAttributes(nodes[i], {cx: x(value), cy: y(density), "aria-valuenow": value, "aria-valuetext": `${short(density)} at ${short(value)}`});
     });
   }
+  drawing.append(back, ...nodes);
   draw();
 
-  const ends = range();
-  const middle = ends ? (ends[0] + ends[1]) / 2 : 0;
   return [
     drawing,
     ...(isOpacity ? [] : [row("", check("own density", points.length > 0, (is) => {
@@ -136,16 +136,25 @@ export function transferEditor(own, field, context) {
         context.set(place, is ? {...own, density: [[shown[0], 0], [(shown[0] + shown[1]) / 2, 0], [shown[1], usual]]} : rest, "density");
       }
     }))]),
-    row("", button("Add point", () => { const shown = range(); if (shown) { insert(middlePoint(points)); } }, {disabled: points.length === 0}),
+    buttons(button("Add point", () => { const shown = range(); if (shown) { insert(middlePoint(points)); } }, {disabled: points.length === 0}),
       button("Add peak", () => {
         const shown = range();
         if (shown && shown[1] > shown[0]) {
-          peaks.push({value: (shown[0] + shown[1]) / 2 || middle, width: 0.05 * (shown[1] - shown[0]), density: 10 * usual});
+          peaks.push({value: roundMiddle(shown), width: 0.05 * (shown[1] - shown[0]), density: 10 * usual});
           send(true);
         }
       })),
     ...peaks.flatMap((peak, i) => peakRows(peak, i, () => send(true), () => removePeak(i))),
   ];
+}
+
+/**
+ * A number of few digits near the middle.
+ * @param {[number, number]} range
+ */
+function roundMiddle([low, high]) {
+  const step = 10 ** Math.floor(Math.log10((high - low) / 20));
+  return Number((Math.round((low + high) / 2 / step) * step).toPrecision(12));
 }
 
 /**
