@@ -43,6 +43,10 @@ void add_serve(CLI::App& app) {
                         "Folder with the files that scenes may name, such as colour maps; by default that of the input");
     command->add_option("--sessions", a->options.most_sessions, "How many people may look at the same time; 8 by default")
         ->check(CLI::Range(1, 1000));
+    command
+        ->add_option("--memory", a->options.most_memory,
+                     "Mebibytes that the volume and all sessions may take together; what needs more is refused")
+        ->check(CLI::Range(1, 1 << 30));
     command->add_flag("--until-input-ends", a->options.ends_with_input,
                       "End when the standard input does, and so with the program that has started the server");
     command->add_option("--device", a->device,

@@ -2,6 +2,8 @@
 #include "page_files.hpp"
 #include "token.hpp"
 
+#include <core/base/error.hpp>
+
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 
@@ -112,9 +114,11 @@ private:
         if (!has_right_origin(request)) {
             return refusal(request, http::status::forbidden, "pages of this origin may not come; --origin allows them");
         }
-        std::shared_ptr<Session> session = m_hall.sessions.find_or_make(address.parameter("session"));
-        if (!session) {
-            return refusal(request, http::status::service_unavailable, "there are as many sessions as there may be");
+        std::shared_ptr<Session> session;
+        try {
+            session = m_hall.sessions.find_or_make(address.parameter("session"));
+        } catch (const Error& error) {
+            return refusal(request, http::status::service_unavailable, error.what());
         }
         start_web_socket(m_hall, std::move(m_counted), std::move(m_stream), request, std::move(session),
                          address.parameter("companion") == "1");

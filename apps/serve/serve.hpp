@@ -27,6 +27,8 @@ struct Options {
     /** The server ends when its standard input does, and so with the program that has started it. */
     bool ends_with_input = false;
     std::size_t most_sessions = 8;
+    /** Mebibytes that all sessions together and the volume may take; 0: as many as there are. */
+    std::uint64_t most_memory = 0;
     std::size_t most_connections = 256;
 };
 

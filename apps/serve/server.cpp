@@ -1,4 +1,5 @@
 #include "connections.hpp"
+#include "memory_limit.hpp"
 #include "token.hpp"
 
 #include <apps/elvis/view/model/first_scene.hpp>
@@ -62,8 +63,10 @@ std::shared_ptr<const Served> open_served(const context& library, const Options&
     }
     const std::string page_scene = (root / "scene.json").lexically_normal().lexically_proximate(fs::current_path()).string();
     ScenePaths paths(root, nlohmann::json::parse(scene_json(first, page_scene).dump()));
-    return std::make_shared<const Served>(library, std::move(volume), std::move(facts), std::move(first), page_scene,
-                                          std::move(paths));
+    auto served = std::make_shared<const Served>(library, std::move(volume), std::move(facts), std::move(first), page_scene,
+                                                 std::move(paths), options.most_memory << 20u);
+    need_memory(*served, 0);
+    return served;
 }
 
 class Server {
@@ -137,10 +140,11 @@ private:
     }
 
     void tidy() {
-        m_timer.expires_after(std::chrono::seconds(10));
+        m_timer.expires_after(std::chrono::seconds(2));
         m_timer.async_wait([this](const boost::system::error_code& error) {
             if (!error) {
                 m_sessions.end_old();
+                m_sessions.make_room();
                 tidy();
             }
         });

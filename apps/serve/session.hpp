@@ -52,6 +52,8 @@ public:
     void detach(Member member);
     /** A message of one of them; of others it is dropped. What is wrong with it goes back as text. */
     void receive(Member from, std::string_view text);
+    /** Forgets all steps of undo but a few, and says why. */
+    void spare_memory();
     /** It draws no more, and says no more. */
     void stop();
 
@@ -112,6 +114,8 @@ private:
     Scene judged(const Json& scene) const;
     void edit(const std::string& what, const Json& scene);
     void edited(bool is_moving);
+    /** A picture may have that size: see message_values.hpp, memory_limit.hpp. */
+    void check_size(const Scene& scene, const std::array<std::uint32_t, 2>& size) const;
     /** A step of its own. */
     void change_items(const std::string& what, Scene&& scene);
     /** `is_awaited`: before the next picture. */

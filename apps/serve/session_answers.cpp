@@ -101,7 +101,7 @@ Session::Json Session::save_picture(const Json& message) {
     if (std::uint64_t{size[0]} * size[1] > most_saved_pixels) {
         throw Error("the picture would have more than 64 million pixels");
     }
-    check_samples(m_model.scene(), size);
+    check_size(m_model.scene(), size);
     post(message, "drawing a picture to save", [served = m_served, size](const Scene& scene, const task& watch) {
         Scene resized = scene;
         // The shift is in pixels: a larger picture has what is looked at in the same place.

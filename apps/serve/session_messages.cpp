@@ -77,7 +77,7 @@ void Session::receive(Member from, std::string_view text) {
 }
 
 Session::Json Session::resize(const Json& message) {
-    check_samples(m_model.scene(), size_of(message));
+    check_size(m_model.scene(), size_of(message));
     if (m_model.scene().size == size_of(message)) {
         return Json::object();
     }

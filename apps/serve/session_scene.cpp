@@ -1,3 +1,4 @@
+#include "memory_limit.hpp"
 #include "message_values.hpp"
 #include "session.hpp"
 
@@ -14,6 +15,9 @@ namespace elvis::serve {
 namespace {
 
 using nlohmann::json;
+
+/** Of all steps of undo of a session, as text. */
+constexpr std::size_t most_history_bytes = std::size_t{4} << 20u;
 
 constexpr std::array<const char*, 4> kinds = {"surface", "volume", "light", "hidden light"};
 
@@ -55,7 +59,7 @@ Scene Session::judged(const Json& scene) const {
     if (wanted.size[0] > most_pixels_across || wanted.size[1] > most_pixels_across) {
         throw Error("'image.size' is larger than the page can be");
     }
-    check_samples(wanted, wanted.size);
+    check_size(wanted, wanted.size);
     if (wanted.time_step >= m_served->facts.times.size() && wanted.time_step > 0) {
         throw Error("the volume has " + std::to_string(m_served->facts.times.size()) + " time steps");
     }
@@ -68,7 +72,26 @@ void Session::edit(const std::string& what, const Json& scene) {
     m_is_first_view = m_is_first_view && scene.value("camera", Json()) == page_json()["camera"];
     m_taken.reset();
     m_model.edit(what, std::move(wanted));
+    // The longer its scenes, the fewer steps.
+    m_model.keep_steps(std::max<std::size_t>(1, most_history_bytes / scene.dump().size()));
     edited(false);
+}
+
+void Session::check_size(const Scene& scene, const std::array<std::uint32_t, 2>& size) const {
+    check_samples(scene, size);
+    const auto n_pixels = [](const std::array<std::uint32_t, 2>& of) { return std::uint64_t{of[0]} * of[1]; };
+    if (n_pixels(size) > n_pixels(m_model.scene().size)) {
+        need_memory(*m_served, picture_bytes(n_pixels(size)));
+    }
+}
+
+void Session::spare_memory() {
+    constexpr std::size_t few = 10;
+    const std::lock_guard lock(m_mutex);
+    m_model.keep_steps(few);
+    send({{"type", "error"},
+          {"text", "the server is short of memory: what needs more is refused, and older steps of undo are gone"}});
+    tell_state();
 }
 
 void Session::edited(bool is_moving) {

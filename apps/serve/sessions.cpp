@@ -1,7 +1,11 @@
 #include "sessions.hpp"
+#include "memory_limit.hpp"
 #include "token.hpp"
 
-#include <algorithm>
+#include <core/base/error.hpp>
+#include <core/base/memory.hpp>
+
+#include <utility>
 
 namespace elvis::serve {
 
@@ -10,17 +14,14 @@ std::shared_ptr<Session> Sessions::find_or_make(const std::string& id) {
         return found->second.session;
     }
     if (m_entries.size() >= m_most) {
-        auto oldest = m_entries.end();
-        for (auto entry = m_entries.begin(); entry != m_entries.end(); ++entry) {
-            if (entry->second.is_alone() && (oldest == m_entries.end() || entry->second.detached < oldest->second.detached)) {
-                oldest = entry;
-            }
+        const auto longest = longest_alone();
+        if (longest == m_entries.end()) {
+            throw Error("there are as many sessions as there may be (--sessions)");
         }
-        if (oldest == m_entries.end()) {
-            return nullptr;
-        }
-        m_entries.erase(oldest);
+        m_entries.erase(longest);
     }
+    make_room();
+    need_memory(*m_served, 0);
     const std::string name = random_digits(16);
     auto session = std::make_shared<Session>(m_served, name);
     m_entries[name] = {session, nullptr, {}, Clock::now()};
@@ -55,6 +56,34 @@ void Sessions::end_old() {
     std::erase_if(m_entries, [](const auto& entry) {
         return entry.second.is_alone() && Clock::now() - entry.second.detached > session_patience;
     });
+}
+
+Sessions::Entries::iterator Sessions::longest_alone() {
+    auto longest = m_entries.end();
+    for (auto entry = m_entries.begin(); entry != m_entries.end(); ++entry) {
+        if (entry->second.is_alone() && (longest == m_entries.end() || entry->second.detached < longest->second.detached)) {
+            longest = entry;
+        }
+    }
+    return longest;
+}
+
+void Sessions::make_room() {
+    if (!is_memory_exceeded(*m_served)) {
+        m_is_short = false;
+        return;
+    }
+    give_back_free_memory();
+    for (auto longest = longest_alone(); longest != m_entries.end() && is_memory_exceeded(*m_served);
+         longest = longest_alone()) {
+        m_entries.erase(longest);
+        give_back_free_memory();
+    }
+    if (is_memory_exceeded(*m_served) && !std::exchange(m_is_short, true)) {
+        for (const auto& [id, entry] : m_entries) {
+            entry.session->spare_memory();
+        }
+    }
 }
 
 void Sessions::stop_all() {

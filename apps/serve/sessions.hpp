@@ -23,14 +23,16 @@ public:
     Sessions(std::shared_ptr<const Served> served, std::size_t most) : m_served(std::move(served)), m_most(most) {}
 
     /**
-     * The one of that name, or a new one. In place of the one that has waited longest for its page if there are too many;
-     * nullptr if all have theirs.
+     * The one of that name, or a new one, in place of the one that has waited longest for its page if there are too many.
+     * Throws Error if all have theirs, or there is no memory for another one.
      */
     std::shared_ptr<Session> find_or_make(const std::string& id);
     /** A page that comes to a session takes it from the one before; companions come beside it. */
     void attached(const std::string& id, Member member, bool is_companion);
     void detached(const std::string& id, Member member);
     void end_old();
+    /** Where more memory is held than may be: sessions without pages end, and the others forget steps of undo, and are told. */
+    void make_room();
     void stop_all();
 
 private:
@@ -46,7 +48,12 @@ private:
 
     std::shared_ptr<const Served> m_served;
     std::size_t m_most;
-    std::map<std::string, Entry> m_entries;
+    using Entries = std::map<std::string, Entry>;
+    /** The one that has waited longest for its page; the end if all have theirs. */
+    Entries::iterator longest_alone();
+
+    Entries m_entries;
+    bool m_is_short = false;
 };
 
 } // namespace elvis::serve

@@ -1,8 +1,10 @@
-"""`elvis serve` behind nginx: below a prefix, which the proxy leaves in requests or takes away."""
+"""`elvis serve` behind others: nginx with a prefix, which it leaves in requests or takes away, and a port that is forwarded as by ssh -L."""
 import os
 import shutil
+import socket
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 import urllib.request
@@ -68,6 +70,78 @@ class ProxyTest(unittest.TestCase):
             page.close()
             with self.assertRaises(Refused):
                 WebSocket(self.port, target, ["Origin: http://elsewhere.example"])
+
+
+class Forward:
+    """A port whose bytes go to another one, unread."""
+
+    def __init__(self, port):
+        self.to = port
+        self.listener = socket.create_server(("127.0.0.1", 0))
+        self.port = self.listener.getsockname()[1]
+        threading.Thread(target=self.accept, daemon=True).start()
+
+    def accept(self):
+        while True:
+            try:
+                near, _ = self.listener.accept()
+            except OSError:
+                return
+            threading.Thread(target=self.carry, args=(near,), daemon=True).start()
+
+    def carry(self, near):
+        with near, socket.create_connection(("127.0.0.1", self.to)) as far:
+            back = threading.Thread(target=self.copy, args=(far, near), daemon=True)
+            back.start()
+            self.copy(near, far)
+            back.join()
+
+    @staticmethod
+    def copy(one, other):
+        try:
+            while data := one.recv(65536):
+                other.sendall(data)
+            other.shutdown(socket.SHUT_WR)
+        except OSError:
+            pass
+
+    def close(self):
+        self.listener.close()
+
+
+class ForwardTest(unittest.TestCase):
+    """Browsers name the port that they see, not that of the server."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="elvis-forward-test-")
+        self.addCleanup(folder.cleanup)
+        self.server = Server(make_volume(folder.name), "--origin", "https://hub.example")
+        self.addCleanup(lambda: self.assertEqual(self.server.stop(), 0))
+        self.forward = Forward(self.server.port)
+        self.addCleanup(self.forward.close)
+
+    def socket(self, origin, host=None):
+        headers = [f"Origin: {origin}"] if origin else []
+        return WebSocket(self.forward.port, f"/session?token={self.server.token}&session=", headers, host)
+
+    def test_a_page_comes_through_a_forwarded_port(self):
+        with urllib.request.urlopen(f"http://127.0.0.1:{self.forward.port}/?token={self.server.token}", timeout=30) as answer:
+            self.assertIn(b"<!doctype html>", answer.read())
+        page = Page(self.socket(f"http://127.0.0.1:{self.forward.port}"), [80, 60])
+        page.tell(type="orbit", dx=5, dy=0)
+        self.assertTrue(page.exact()["bytes"].startswith(b"\x89PNG"))
+        page.close()
+
+    def test_origins_are_those_of_the_port_that_the_browser_sees(self):
+        near = f"localhost:{self.forward.port}"
+        for origin, host in ((f"http://{near}", near), ("https://hub.example", None), ("https://hub.example", near), (None, None)):
+            self.socket(origin, host).close()
+        for origin, host in ((f"http://127.0.0.1:{self.server.port}", None), (f"http://{near}", None), ("https://hub.example:444", None),
+                             ("http://hub.example", None), ("https://hub.example.evil.example", None), ("null", near), ("file://", near),
+                             (f"http://{near}.evil.example", near), ("http://localhost", near)):
+            with self.assertRaises(Refused, msg=f"{origin} at {host}") as refused:
+                self.socket(origin, host)
+            self.assertEqual(refused.exception.status, 403)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 import {Connection} from "./connection.js";
 import {element, hand} from "./controls.js";
 import {pickedTable, sceneField, showItem, showScene} from "./editor.js";
+import {download, listenForFiles} from "./files.js";
 import {makeHistograms} from "./histograms.js";
 import {LineProbe} from "./line_probe.js";
 import {Overlay} from "./overlay.js";
@@ -315,26 +316,6 @@ function nextStep() {
   connection.tell({type: "set", pointer: "/volume/time_step", value: step, name: "time step"});
 }
 
-/** @param {string} name @param {BlobPart} content @param {string} type */
-function download(name, content, type) {
-  const url = URL.createObjectURL(new Blob([content], {type}));
-  const link = /** @type {HTMLAnchorElement} */ (element("a", {href: url, download: name}));
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(url), 10000);
-}
-
-const stem = () => String(volume.path ?? "scene").replace(/\.[^.]*$/, "");
-
-async function savePicture() {
-  const [width, height] = [Number($("save-width").value), Number($("save-height").value)];
-  // What is shown is what would be drawn.
-  const isShown = picture.exact && picture.size[0] === width && picture.size[1] === height;
-  const bytes = isShown ? picture.exact : (await ask({type: "save picture", width, height}))?.bytes;
-  if (bytes) {
-    download(`${stem()}.png`, bytes, "image/png");
-  }
-}
-
 $("undo").onclick = () => ask({type: "undo"});
 $("redo").onclick = () => ask({type: "redo"});
 $("add").onclick = add;
@@ -345,7 +326,6 @@ $("copy").onclick = () => {
   }
 };
 $("save-view").onclick = saveView;
-$("save-picture").onclick = savePicture;
 $("pick-middle").onclick = () => pick(picture.size[0] / 2, picture.size[1] / 2);
 $("parallel").onclick = () => ask({type: "projection", orthographic: $("parallel").getAttribute("aria-pressed") !== "true"});
 $("panel-toggle").onclick = () => {
@@ -365,23 +345,7 @@ $("play").onclick = () => {
     connection.tell({type: "release"});
   }
 };
-$("save-scene").onclick = async () => {
-  const saved = await ask({type: "save scene"});
-  if (saved) {
-    download(`${stem()}.json`, saved.text + "\n", "application/json");
-  }
-};
-$("load-scene").onchange = async () => {
-  const file = $("load-scene").files[0];
-  $("load-scene").value = "";
-  try {
-    if (file) {
-      await ask({type: "load", scene: JSON.parse(await file.text())});
-    }
-  } catch (error) {
-    say(`${file.name} is no scene: ${error}`);
-  }
-};
+listenForFiles({ask, say, picture, stem: () => String(volume.path ?? "scene").replace(/\.[^.]*$/, "")});
 document.addEventListener("keydown", (event) => {
   const isTyping = event.target instanceof HTMLInputElement && (event.target.type === "text" || event.target.type === "number");
   if ((event.ctrlKey || event.metaKey) && !isTyping && (event.key === "z" || event.key === "y")) {

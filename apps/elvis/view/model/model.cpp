@@ -103,6 +103,14 @@ void Model::exchange(std::vector<Step>& from, std::vector<Step>& to) {
     changed();
 }
 
+void Model::keep_steps(std::size_t most) {
+    for (std::vector<Step>* steps : {&m_undo, &m_redo}) {
+        if (steps->size() > most) {
+            steps->erase(steps->begin(), steps->end() - static_cast<std::ptrdiff_t>(most));
+        }
+    }
+}
+
 void Model::undo() { exchange(m_undo, m_redo); }
 void Model::redo() { exchange(m_redo, m_undo); }
 

@@ -52,6 +52,8 @@ public:
     std::optional<std::string> undo_name() const;
     std::optional<std::string> redo_name() const;
     void undo();
+    /** Forgets all steps that can be undone or redone but the newest. */
+    void keep_steps(std::size_t most);
     void redo();
 
     /** The item whose properties are shown; nothing if there is none. */
