@@ -64,7 +64,14 @@ Session::Json Session::histogram(const Json& message) {
 Session::Json Session::palette(const Json& message) {
     Json scene = page_json();
     scene["color_map"] = message.at("color_map");
-    return {{"points", palette_of(judged(scene).color_map)}};
+    // It may be in a file.
+    post(
+        message, "reading a colour map",
+        [map = judged(scene).color_map](const Scene&, const task&) -> Encoded {
+            return {{{"points", palette_of(map)}}, {}};
+        },
+        false);
+    return {};
 }
 
 Session::Json Session::line(const Json& message) {

@@ -7,15 +7,12 @@ import {scale, short, ticks} from "./axis.js";
 const size = [268, 190], left = 44, right = 6, top = 6, bottom = 20;
 
 /**
- * The value of a series at a place, linear between its points; null in gaps.
+ * In words: both values where elements meet and the field jumps. Numbers are those that were sampled, none in between.
  * @param {Series} series @param {number} at
  */
-export function valueAt(series, at) {
-  const {points} = series;
-  let i = points.findIndex((point) => point[0] >= at);
-  i = i < 0 ? points.length - 1 : i;
-  const [x1, y1] = points[i], [x0, y0] = points[Math.max(0, i - 1)];
-  return x1 <= at || x1 === x0 ? y1 : y0 === null || y1 === null ? null : y0 + ((y1 - y0) * (at - x0)) / (x1 - x0);
+function valuesAt(series, at) {
+  const values = new Set(series.points.flatMap(([place, value]) => (place === at && value !== null ? [Number(value.toPrecision(9))] : [])));
+  return values.size ? [...values].join(" | ") : "none";
 }
 
 /** @param {Series[]} all */
@@ -65,7 +62,7 @@ export function plot(line, onCursor) {
   ].flat();
   const drawing = shape("svg", {
     viewBox: `0 0 ${size[0]} ${size[1]}`, class: "plot", tabindex: 0, role: "img",
-    "aria-label": `${line.series.map((one) => one.name).join(", ")} over the arc length. Arrow keys move along the line.`,
+    "aria-label": `${line.series.map((one) => one.name).join(", ")} over the arc length. Arrow keys move along the line, with Shift ten times as far; Home and End go to its ends.`,
   }, [
     shape("rect", {class: "frame", x: left, y: top, width: size[0] - left - right, height: size[1] - top - bottom}),
     ...axis,
@@ -73,26 +70,28 @@ export function plot(line, onCursor) {
     ...line.series.map((one, i) => shape("path", {class: `curve curve${i % 6}`, d: pathOf(one, x, y)})),
     cursor,
   ]);
-  /** @type {number | null} */
-  let place = null;
-  const show = (/** @type {number | null} */ at) => {
-    place = at === null ? null : Math.min(line.length, Math.max(0, at));
-    setAttributes(cursor, place === null ? {visibility: "hidden"} : {visibility: "visible", x1: x(place), x2: x(place)});
-    told.textContent = place === null ? "" : [`s = ${short(place)}`, ...line.series.map((one) => {
-      const value = valueAt(one, /** @type {number} */ (place));
-      return `${one.name} = ${value === null ? "none" : Number(value.toPrecision(7))}`;
-    })].join(", ");
-    onCursor(place);
+  const places = [...new Set(line.series.flatMap((one) => one.points.map((point) => point[0])))].sort((a, b) => a - b);
+  /** @type {number | null} of the places */
+  let index = null;
+  const show = (/** @type {number | null} */ wanted) => {
+    index = wanted === null ? null : Math.min(places.length - 1, Math.max(0, wanted));
+    const at = index === null ? null : places[index];
+    setAttributes(cursor, at === null ? {visibility: "hidden"} : {visibility: "visible", x1: x(at), x2: x(at)});
+    told.textContent = at === null ? "" : [`s = ${Number(at.toPrecision(9))}`, ...line.series.map((one) => `${one.name} = ${valuesAt(one, at)}`)].join(", ");
+    onCursor(at);
   };
   drawing.addEventListener("pointermove", (event) => {
     const box = drawing.getBoundingClientRect();
-    show(across.value(((event.clientX - box.left) * size[0] / box.width - left) / (size[0] - left - right)));
+    const at = across.value(((event.clientX - box.left) * size[0] / box.width - left) / (size[0] - left - right));
+    const behind = places.findIndex((place) => place >= at);
+    const last = behind < 0 ? places.length - 1 : behind;
+    show(last > 0 && at - places[last - 1] < places[last] - at ? last - 1 : last);
   });
   drawing.addEventListener("pointerleave", () => show(null));
   drawing.addEventListener("keydown", (event) => {
     const way = arrowOf(event);
-    if (way) {
-      show((place ?? line.length / 2) + ((way[0] - way[1]) * line.length) / 200);
+    if (way || event.key === "Home" || event.key === "End") {
+      show(way ? (index ?? places.length >> 1) + way[0] - way[1] : event.key === "Home" ? 0 : places.length - 1);
       event.preventDefault();
     }
   });
