@@ -4,10 +4,9 @@
  */
 #pragma once
 
-#include "histograms.hpp"
-#include "scene_edit.hpp"
-
 #include <apps/elvis/view/model/volume_facts.hpp>
+#include <apps/serve/answers/histograms.hpp>
+#include <apps/serve/session/scene_edit.hpp>
 
 #include <core/base/temporary_folder.hpp>
 #include <core/scene/scene.hpp>

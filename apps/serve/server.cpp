@@ -1,8 +1,8 @@
-#include "connections.hpp"
-#include "memory_limit.hpp"
-#include "token.hpp"
 
 #include <apps/elvis/view/model/first_scene.hpp>
+#include <apps/serve/network/connections.hpp>
+#include <apps/serve/network/token.hpp>
+#include <apps/serve/session/memory_limit.hpp>
 
 #include <core/base/error.hpp>
 #include <core/scene/write/write_scene.hpp>

@@ -1,6 +1,7 @@
 #include "sessions.hpp"
 #include "memory_limit.hpp"
-#include "token.hpp"
+
+#include <apps/serve/network/token.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/memory.hpp>

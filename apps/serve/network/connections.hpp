@@ -5,8 +5,9 @@
 #pragma once
 
 #include "request.hpp"
-#include "serve.hpp"
-#include "sessions.hpp"
+
+#include <apps/serve/serve.hpp>
+#include <apps/serve/session/sessions.hpp>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>

@@ -1,7 +1,8 @@
-#include "line_values.hpp"
 #include "message_values.hpp"
-#include "palette.hpp"
 #include "session.hpp"
+
+#include <apps/serve/answers/line_values.hpp>
+#include <apps/serve/answers/palette.hpp>
 
 #include <core/base/error.hpp>
 #include <core/scene/write/write_scene.hpp>

@@ -4,9 +4,8 @@
  */
 #pragma once
 
-#include "draw.hpp"
-
 #include <apps/elvis/view/model/model.hpp>
+#include <apps/serve/answers/draw.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "served.hpp"
+#include <apps/serve/served.hpp>
 
 #include <core/base/vector3.hpp>
 
