@@ -15,7 +15,7 @@ python_packages=(python3-dev pybind11-dev python3-numpy)
 mpi_packages=(libopenmpi-dev openmpi-bin)
 paraview_packages=(paraview-dev python3-paraview libglew-dev)
 test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py python3-matplotlib gmsh libcgns-dev xvfb xdotool imagemagick abigail-tools
-    chromium chromium-driver node-typescript nginx-light gfortran)
+    chromium chromium-driver node-typescript nginx-light gfortran hdf5-tools metis)
 
 usage() {
     cat <<'END'

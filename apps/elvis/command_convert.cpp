@@ -2,10 +2,12 @@
 #include "crash_report.hpp"
 #include "library_context.hpp"
 #include "long_task.hpp"
+#include "removal_of_temporary.hpp"
 #include <apps/elvis/render/output_endings.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
+#include <core/base/team.hpp>
 #include <core/convert/request.hpp>
 
 #include <spdlog/spdlog.h>
@@ -124,12 +126,26 @@ void answer(const ConvertArguments& arguments) {
     answer_conversion(request_of(arguments), control, arguments.answer);
 }
 
-void run_convert(const ConvertArguments& arguments) {
+/** By all processes of a team; the report is that of the first. */
+ConvertReport convert_together(const ConvertArguments& arguments, Team& team) {
+    if (arguments.is_separate) {
+        throw UsageError("--separate-process", "does not go with many processes");
+    }
+    const RemovalOfTemporary removal(arguments.output, team);
+    return convert(request_of(arguments), {}, {}, &team);
+}
+
+void run_convert(const ConvertArguments& arguments, Team* team) {
     need_hdf5_ending("--output", arguments.output);
     if (!arguments.report.empty()) {
         need_ending("--report", arguments.report, {".json"});
     }
-    const ConvertReport report = arguments.is_separate ? convert_apart(arguments) : convert_here(arguments);
+    const ConvertReport report = team != nullptr         ? convert_together(arguments, *team)
+                                 : arguments.is_separate ? convert_apart(arguments)
+                                                         : convert_here(arguments);
+    if (team != nullptr && !team->is_first()) {
+        return;
+    }
     if (!arguments.report.empty()) {
         write_report(report, arguments.report);
     }
@@ -142,7 +158,7 @@ void run_convert(const ConvertArguments& arguments) {
 
 } // namespace
 
-void add_convert(CLI::App& app) {
+void add_convert(CLI::App& app, Team* team) {
     CLI::App* command = app.add_subcommand("convert", "Convert a foreign data set to a native volume");
     auto arguments = std::make_shared<ConvertArguments>();
     command->add_option("inputs", arguments->inputs, "Geometry first, then field files")->required();
@@ -166,7 +182,7 @@ void add_convert(CLI::App& app) {
         ->needs(separate);
     // The program calls itself with this.
     command->add_option("--answer", arguments->answer)->group("");
-    command->callback([arguments] { arguments->answer >= 0 ? answer(*arguments) : run_convert(*arguments); });
+    command->callback([arguments, team] { arguments->answer >= 0 ? answer(*arguments) : run_convert(*arguments, team); });
 }
 
 } // namespace elvis::commands

@@ -8,8 +8,9 @@
 #include <CLI/CLI.hpp>
 
 namespace elvis {
+class DivisibleTeam;
 class Team;
-}
+} // namespace elvis
 
 namespace elvis::commands {
 
@@ -17,7 +18,7 @@ void add_bench(CLI::App& app);
 void add_check_plugin(CLI::App& app);
 void add_compile_snippet(CLI::App& app);
 void add_completion(CLI::App& app);
-void add_convert(CLI::App& app);
+void add_convert(CLI::App& app, Team* team = nullptr);
 void add_devices(CLI::App& app);
 void add_export(CLI::App& app);
 void add_extract(CLI::App& app);
@@ -31,7 +32,7 @@ void add_new_plugin(CLI::App& app);
 void add_plugins(CLI::App& app);
 void add_probe(CLI::App& app);
 /** `team`: the processes that draw parts of a volume together; null: this one draws by itself. It must outlive the command. */
-void add_render(CLI::App& app, Team* team = nullptr);
+void add_render(CLI::App& app, DivisibleTeam* team = nullptr);
 void add_sample(CLI::App& app);
 void add_serve(CLI::App& app);
 void add_version(CLI::App& app);

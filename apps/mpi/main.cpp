@@ -27,7 +27,7 @@ void choose_device_of(const elvis::MpiTeam& team) {
 
 /** 0: all was done; 2: wrong usage. Failures do not return: all processes end. */
 int run(int argc, char** argv, elvis::MpiTeam& team) {
-    CLI::App app{"ElVis on many processes: each draws some parts of the volume", "elvis-mpi"};
+    CLI::App app{"ElVis on many processes: each draws or converts some parts of the volume", "elvis-mpi"};
     app.set_version_flag("--version", "elvis-mpi " ELVIS_VERSION);
     app.require_subcommand(1);
     bool verbose = false;
@@ -41,6 +41,7 @@ int run(int argc, char** argv, elvis::MpiTeam& team) {
         choose_device_of(team);
     });
     elvis::commands::add_render(app, &team);
+    elvis::commands::add_convert(app, &team);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -60,7 +61,8 @@ int run(int argc, char** argv, elvis::MpiTeam& team) {
 
 // NOLINTNEXTLINE(bugprone-exception-escape): an exception here is the program's own fault, and is reported as a crash.
 int main(int argc, char** argv) {
-    elvis::MpiTeam team(argc, argv);
+    const elvis::MpiProgram program(argc, argv);
+    elvis::MpiTeam team;
     elvis::report_crashes();
     return run(argc, argv, team);
 }

@@ -1,7 +1,5 @@
 #include "mpi_team.hpp"
 
-#include <mpi.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -22,40 +20,59 @@ template <class Pass> void in_pieces(std::size_t n, std::size_t most, Pass pass)
     }
 }
 
-/** How many things each process has; on all. */
-std::vector<std::uint64_t> sizes_of_all(std::uint64_t own, std::uint32_t n_ranks) {
-    std::vector<std::uint64_t> sizes(n_ranks);
-    MPI_Allgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
-    return sizes;
-}
-
 } // namespace
 
-MpiTeam::MpiTeam(int& argc, char**& argv) {
+MpiProgram::MpiProgram(int& argc, char**& argv) {
     int thread_support = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &thread_support);
-    int rank = 0, size = 1, local_rank = 0;
-    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    MPI_Comm_size(MPI_COMM_WORLD, &size);
+}
+
+MpiProgram::~MpiProgram() { MPI_Finalize(); }
+
+MpiTeam::MpiTeam() : MpiTeam(MPI_COMM_WORLD) {
+    int local_rank = 0;
     MPI_Comm machine = MPI_COMM_NULL;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine);
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, static_cast<int>(m_rank), MPI_INFO_NULL, &machine);
     MPI_Comm_rank(machine, &local_rank);
     MPI_Comm_free(&machine);
-    m_rank = static_cast<std::uint32_t>(rank);
-    m_size = static_cast<std::uint32_t>(size);
     m_local_rank = static_cast<std::uint32_t>(local_rank);
 }
 
-MpiTeam::~MpiTeam() { MPI_Finalize(); }
+MpiTeam::MpiTeam(MPI_Comm ranks) : m_ranks(ranks) {
+    int rank = 0, size = 1;
+    MPI_Comm_rank(m_ranks, &rank);
+    MPI_Comm_size(m_ranks, &size);
+    m_rank = static_cast<std::uint32_t>(rank);
+    m_size = static_cast<std::uint32_t>(size);
+}
+
+MpiTeam::~MpiTeam() {
+    if (m_ranks != MPI_COMM_WORLD) {
+        MPI_Comm_free(&m_ranks);
+    }
+}
+
+std::unique_ptr<Team> MpiTeam::group(std::uint32_t n_groups) {
+    MPI_Comm own = MPI_COMM_NULL;
+    MPI_Comm_split(m_ranks, static_cast<int>(group_number(n_groups)), static_cast<int>(m_rank), &own);
+    return std::unique_ptr<Team>(new MpiTeam(own));
+}
+
+/** How many things each process has; on all. */
+std::vector<std::uint64_t> MpiTeam::sizes_of_all(std::uint64_t own) const {
+    std::vector<std::uint64_t> sizes(m_size);
+    MPI_Allgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, m_ranks);
+    return sizes;
+}
 
 void MpiTeam::minimum(std::span<double> numbers) {
     in_pieces(numbers.size(), most_at_once / sizeof(double), [&](std::size_t first, int count) {
-        MPI_Allreduce(MPI_IN_PLACE, numbers.data() + first, count, MPI_DOUBLE, MPI_MIN, MPI_COMM_WORLD);
+        MPI_Allreduce(MPI_IN_PLACE, numbers.data() + first, count, MPI_DOUBLE, MPI_MIN, m_ranks);
     });
 }
 
 std::vector<double> MpiTeam::joined(std::vector<double> numbers) {
-    const std::vector<std::uint64_t> sizes = sizes_of_all(numbers.size(), m_size);
+    const std::vector<std::uint64_t> sizes = sizes_of_all(numbers.size());
     std::vector<double> all;
     for (std::uint32_t rank = 0; rank < m_size; ++rank) {
         const std::size_t before = all.size();
@@ -64,7 +81,7 @@ std::vector<double> MpiTeam::joined(std::vector<double> numbers) {
             std::ranges::copy(numbers, all.begin() + static_cast<std::ptrdiff_t>(before));
         }
         in_pieces(sizes[rank], most_at_once / sizeof(double), [&](std::size_t first, int count) {
-            MPI_Bcast(all.data() + before + first, count, MPI_DOUBLE, static_cast<int>(rank), MPI_COMM_WORLD);
+            MPI_Bcast(all.data() + before + first, count, MPI_DOUBLE, static_cast<int>(rank), m_ranks);
         });
     }
     return all;
@@ -72,18 +89,18 @@ std::vector<double> MpiTeam::joined(std::vector<double> numbers) {
 
 std::vector<double> MpiTeam::of_first(std::vector<double> numbers) {
     std::uint64_t size = numbers.size();
-    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, m_ranks);
     numbers.resize(size);
     in_pieces(size, most_at_once / sizeof(double),
-              [&](std::size_t first, int count) { MPI_Bcast(numbers.data() + first, count, MPI_DOUBLE, 0, MPI_COMM_WORLD); });
+              [&](std::size_t first, int count) { MPI_Bcast(numbers.data() + first, count, MPI_DOUBLE, 0, m_ranks); });
     return numbers;
 }
 
 std::vector<std::vector<std::byte>> MpiTeam::gathered(std::vector<std::byte> bytes) {
-    const std::vector<std::uint64_t> sizes = sizes_of_all(bytes.size(), m_size);
+    const std::vector<std::uint64_t> sizes = sizes_of_all(bytes.size());
     if (!is_first()) {
         in_pieces(bytes.size(), most_at_once,
-                  [&](std::size_t first, int count) { MPI_Send(bytes.data() + first, count, MPI_BYTE, 0, 0, MPI_COMM_WORLD); });
+                  [&](std::size_t first, int count) { MPI_Send(bytes.data() + first, count, MPI_BYTE, 0, 0, m_ranks); });
         return {};
     }
     std::vector<std::vector<std::byte>> all;
@@ -91,7 +108,7 @@ std::vector<std::vector<std::byte>> MpiTeam::gathered(std::vector<std::byte> byt
     for (std::uint32_t rank = 1; rank < m_size; ++rank) {
         std::vector<std::byte>& theirs = all.emplace_back(sizes[rank]);
         in_pieces(theirs.size(), most_at_once, [&](std::size_t first, int count) {
-            MPI_Recv(theirs.data() + first, count, MPI_BYTE, static_cast<int>(rank), 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+            MPI_Recv(theirs.data() + first, count, MPI_BYTE, static_cast<int>(rank), 0, m_ranks, MPI_STATUS_IGNORE);
         });
     }
     return all;

@@ -4,17 +4,29 @@
  */
 #pragma once
 
-#include <core/parts/team.hpp>
+#include <core/base/team.hpp>
+
+#include <mpi.h>
 
 #include <string>
 
 namespace elvis {
 
-/** MPI from here on, of one thread; one in a program. */
-class MpiTeam final : public Team {
+/** MPI, while it lives, of one thread; one in a program. */
+class MpiProgram {
 public:
     /** Must come before the program looks at its arguments. */
-    MpiTeam(int& argc, char**& argv);
+    MpiProgram(int& argc, char**& argv);
+    ~MpiProgram();
+    MpiProgram(const MpiProgram&) = delete;
+    MpiProgram& operator=(const MpiProgram&) = delete;
+};
+
+/** Processes of the program: all, or a group of them. */
+class MpiTeam final : public DivisibleTeam {
+public:
+    /** All. */
+    MpiTeam();
     ~MpiTeam() override;
     MpiTeam(const MpiTeam&) = delete;
     MpiTeam& operator=(const MpiTeam&) = delete;
@@ -23,6 +35,7 @@ public:
     std::uint32_t size() const override { return m_size; }
     /** Among the processes on the same machine. */
     std::uint32_t local_rank() const { return m_local_rank; }
+    std::unique_ptr<Team> group(std::uint32_t n_groups) override;
     void minimum(std::span<double> numbers) override;
     std::vector<double> joined(std::vector<double> numbers) override;
     std::vector<double> of_first(std::vector<double> numbers) override;
@@ -35,6 +48,11 @@ public:
     [[noreturn]] void fail(const std::string& message, int status) const;
 
 private:
+    /** Gives the communicator back with itself. */
+    explicit MpiTeam(MPI_Comm ranks);
+    std::vector<std::uint64_t> sizes_of_all(std::uint64_t own) const;
+
+    MPI_Comm m_ranks;
     std::uint32_t m_rank = 0, m_size = 1, m_local_rank = 0;
 };
 

@@ -1,10 +1,12 @@
 #include <core/base/error.hpp>
+#include <core/base/host.hpp>
 #include <core/convert/blocks.hpp>
 #include <core/convert/classes.hpp>
 #include <core/convert/convert.hpp>
 #include <core/convert/projection/block_projection.hpp>
 #include <core/convert/projection/class_kernel.hpp>
 #include <core/convert/projection/field_plan.hpp>
+#include <core/convert/projection/packed_blocks.hpp>
 #include <core/convert/topology/face_list.hpp>
 #include <core/convert/topology/jumps.hpp>
 #include <core/convert/topology/topology.hpp>
@@ -14,9 +16,11 @@
 
 #include <Eigen/QR>
 
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <functional>
 #include <limits>
 
 namespace elvis {
@@ -25,6 +29,8 @@ namespace {
 
 /** Numbers of a block in memory, all fields together (8 MiB); each processor has one block in work. */
 constexpr std::uint64_t block_numbers = 1u << 20;
+/** Of a class, unless it has fewer elements. */
+constexpr std::uint64_t fewest_blocks = 256;
 
 /**
  * Residual of an exact conversion, relative to the largest value: rounding in sums over modes, amplified by the projection's
@@ -36,9 +42,13 @@ constexpr double round_off = 1e-11;
 constexpr double continuous_part_of_range = 1e-9;
 constexpr double continuous_part_of_size = 1e-12;
 
+/** $SOURCE_DATE_EPOCH, seconds since 1970, stands for now: then files that are made alike are alike. */
 std::string utc_now() {
     char date[32] = {};
-    const std::time_t now = std::time(nullptr);
+    std::time_t now = std::time(nullptr);
+    if (const auto said = environment_variable("SOURCE_DATE_EPOCH")) {
+        std::from_chars(said->data(), said->data() + said->size(), now);
+    }
     std::tm utc{};
     std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
     return date;
@@ -53,8 +63,8 @@ struct Block {
 
 class Conversion {
 public:
-    Conversion(const SourceVolume& source, const ConvertOptions& options, const TaskControl& control)
-        : m_source(source), m_options(options), m_control(control), m_plans(plan_fields(source, options)),
+    Conversion(const SourceVolume& source, const ConvertOptions& options, const TaskControl& control, Team& team)
+        : m_source(source), m_options(options), m_control(control), m_team(team), m_plans(plan_fields(source, options)),
           m_points(all_face_points()) {
         std::vector<std::uint32_t> indices;
         for (const FieldPlan& plan : m_plans) {
@@ -72,6 +82,13 @@ public:
         prepare();
     }
 
+    /** What a member other than the first does. */
+    void help() {
+        for (std::uint32_t step = 0; step < m_source.times().size(); ++step) {
+            convert_step_together(step, {});
+        }
+    }
+
     ConvertReport run(const std::string& output) {
         native::Writer writer(output, describe());
         for (std::size_t index = 0; index < m_classes.size(); ++index) {
@@ -80,7 +97,12 @@ public:
         }
         write_faces(writer);
         for (std::uint32_t step = 0; step < m_source.times().size(); ++step) {
-            convert_step(writer, step);
+            if (m_team.size() == 1) {
+                convert_step(writer, step);
+                continue;
+            }
+            convert_step_together(step,
+                                  [&](const Block& block, const BlockResult& result) { commit(writer, block, step, result); });
         }
         const ConvertReport report = make_report();
         for (std::size_t field = 0; field < m_plans.size(); ++field) {
@@ -97,7 +119,9 @@ private:
     void prepare();
     native::Description describe() const;
     void write_faces(native::Writer& writer) const;
+    void project(const Block& block, std::uint32_t step, BlockResult& result) const;
     void convert_step(native::Writer& writer, std::uint32_t step);
+    void convert_step_together(std::uint32_t step, const std::function<void(const Block&, const BlockResult&)>& take);
     void commit(native::Writer& writer, const Block& block, std::uint32_t step, const BlockResult& result);
     void measure_jumps(const Block& block, std::size_t field, const BlockResult& result);
     std::vector<double> face_gradients(const Block& block, std::size_t field, std::uint64_t at,
@@ -108,10 +132,13 @@ private:
     const SourceVolume& m_source;
     const ConvertOptions& m_options;
     const TaskControl& m_control;
+    Team& m_team;
     std::vector<FieldPlan> m_plans;
     std::array<FacePoints, native::n_shapes> m_points;
     std::vector<TargetClass> m_classes;
     Topology m_topology;
+    /** Of the member that has fewest. */
+    std::uint64_t m_n_workers = 1;
     std::vector<ClassKernel> m_kernels;
     std::vector<Block> m_blocks;
     std::vector<FieldMeasure> m_measures;
@@ -122,6 +149,9 @@ private:
 };
 
 void Conversion::prepare() {
+    double fewest = n_workers();
+    m_team.minimum(std::span(&fewest, 1));
+    m_n_workers = static_cast<std::uint64_t>(fewest);
     m_control.progress(-1, "preparing projections");
     std::vector<bool> is_continuous;
     for (const FieldPlan& plan : m_plans) {
@@ -139,9 +169,10 @@ void Conversion::prepare() {
             numbers +=
                 m_plans[field].n_components * static_cast<std::uint64_t>(of_field.project.rows() + of_field.to_faces.rows());
         }
-        // Small volumes are cut finer than memory asks for, to keep all processors at work.
+        // Small volumes are cut finer than memory asks for, to keep all processors at work. Not by how many there are: the last
+        // bits of a product of matrices depend on its size.
         const std::uint64_t n_elements = target.elements.size();
-        const std::uint64_t share = (n_elements + 4 * n_workers() - 1) / (4 * n_workers());
+        const std::uint64_t share = (n_elements + fewest_blocks - 1) / fewest_blocks;
         const std::uint64_t size = std::max<std::uint64_t>(1, std::min(share, block_numbers / numbers));
         for (std::uint64_t first = 0; first < n_elements; first += size) {
             m_blocks.push_back({index, first, std::min(size, n_elements - first)});
@@ -187,16 +218,34 @@ void Conversion::write_faces(native::Writer& writer) const {
     });
 }
 
+void Conversion::project(const Block& block, std::uint32_t step, BlockResult& result) const {
+    const BlockProjection projection(m_source, m_plans, m_classes[block.element_class], m_kernels[block.element_class]);
+    projection.run(block.first, block.count, step, step == 0, m_control, result);
+}
+
 void Conversion::convert_step(native::Writer& writer, std::uint32_t step) {
     std::vector<BlockResult> results(n_workers());
     for_each_block(
-        m_blocks.size(),
-        [&](std::uint64_t index, unsigned worker) {
-            const Block& block = m_blocks[index];
-            const BlockProjection projection(m_source, m_plans, m_classes[block.element_class], m_kernels[block.element_class]);
-            projection.run(block.first, block.count, step, step == 0, m_control, results[worker]);
-        },
+        m_blocks.size(), [&](std::uint64_t index, unsigned worker) { project(m_blocks[index], step, results[worker]); },
         [&](std::uint64_t index, unsigned worker) { commit(writer, m_blocks[index], step, results[worker]); });
+}
+
+/** In rounds: each member projects a block for each of its processors, then the first takes all in order. */
+void Conversion::convert_step_together(std::uint32_t step, const std::function<void(const Block&, const BlockResult&)>& take) {
+    const std::uint64_t a_member = m_n_workers;
+    for (std::uint64_t round = 0; round < m_blocks.size(); round += a_member * m_team.size()) {
+        const std::uint64_t n = m_blocks.size(), first = std::min(n, round + a_member * m_team.rank());
+        std::vector<BlockResult> own(std::min(n, first + a_member) - first);
+        for_each_block(
+            own.size(), [&](std::uint64_t index, unsigned) { project(m_blocks[first + index], step, own[index]); },
+            [](std::uint64_t, unsigned) {});
+        std::uint64_t next = round;
+        for (const std::vector<std::byte>& bytes : m_team.gathered(packed(own))) {
+            for (const BlockResult& result : unpacked_blocks(bytes)) {
+                take(m_blocks[next++], result);
+            }
+        }
+    }
 }
 
 void Conversion::commit(native::Writer& writer, const Block& block, std::uint32_t step, const BlockResult& result) {
@@ -322,9 +371,19 @@ ConvertReport Conversion::make_report() const {
 
 ConvertReport convert(const SourceVolume& source, const std::string& output, const ConvertOptions& options,
                       const TaskControl& control) {
+    OneProcess alone;
+    return convert(source, output, options, control, alone);
+}
+
+ConvertReport convert(const SourceVolume& source, const std::string& output, const ConvertOptions& options,
+                      const TaskControl& control, Team& team) {
     const auto start = std::chrono::steady_clock::now();
     try {
-        Conversion conversion(source, options, control);
+        Conversion conversion(source, options, control, team);
+        if (!team.is_first()) {
+            conversion.help();
+            return {};
+        }
         ConvertReport report = conversion.run(output);
         report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return report;

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/base/team.hpp>
 #include <core/plugin_host/source_volume.hpp>
 
 #include <cstdint>
@@ -80,5 +81,12 @@ ConvertReport report_from_json(const std::string& text);
  */
 ConvertReport convert(const SourceVolume& source, const std::string& output, const ConvertOptions& options,
                       const TaskControl& control);
+
+/**
+ * The same by a team, each of which has opened the source: members project blocks of elements, and the first writes them. The
+ * file is that of one process, and the report is the first's; others get an empty one. Called by all.
+ */
+ConvertReport convert(const SourceVolume& source, const std::string& output, const ConvertOptions& options,
+                      const TaskControl& control, Team& team);
 
 } // namespace elvis

@@ -24,7 +24,7 @@ std::shared_ptr<const Plugin> converter_of(const PluginRegistry& registry, const
 } // namespace
 
 ConvertReport convert(const ConvertRequest& request, const TaskControl& control,
-                      const std::function<void(const std::string& id)>& on_plugin) {
+                      const std::function<void(const std::string& id)>& on_plugin, Team* team) {
     control.progress(-1, "finding the plugin");
     const PluginRegistry registry;
     const std::shared_ptr<const Plugin> plugin = converter_of(registry, request);
@@ -33,7 +33,8 @@ ConvertReport convert(const ConvertRequest& request, const TaskControl& control,
     }
     control.progress(-1, "opening the files");
     const SourceVolume source(plugin, request.inputs, request.plugin_options, &control);
-    return convert(source, request.output, request.options, control);
+    OneProcess alone;
+    return convert(source, request.output, request.options, control, team != nullptr ? *team : static_cast<Team&>(alone));
 }
 
 } // namespace elvis

@@ -24,9 +24,11 @@ struct ConvertRequest {
     ConvertOptions options;
 };
 
-/** In this process. `on_plugin`, if there is one, is told the plugin's id before its volume is opened. */
+/**
+ * In this process, or together with others. `on_plugin`, if there is one, is told the plugin's id before its volume is opened.
+ */
 ConvertReport convert(const ConvertRequest& request, const TaskControl& control,
-                      const std::function<void(const std::string& id)>& on_plugin = {});
+                      const std::function<void(const std::string& id)>& on_plugin = {}, Team* team = nullptr);
 
 /** How a process that converts is treated. */
 struct ConvertProcess {

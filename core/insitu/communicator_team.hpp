@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/parts/team.hpp>
+#include <core/base/team.hpp>
 
 #include <elvis/insitu.h>
 

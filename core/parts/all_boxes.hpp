@@ -5,8 +5,8 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/base/team.hpp>
 #include <core/parts/partition.hpp>
-#include <core/parts/team.hpp>
 
 #include <vector>
 

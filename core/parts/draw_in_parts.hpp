@@ -5,8 +5,8 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/base/team.hpp>
 #include <core/parts/partition.hpp>
-#include <core/parts/team.hpp>
 #include <core/parts/whole_ranges.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/scene/scene.hpp>
@@ -63,6 +63,12 @@ public:
 
     /** Throws Error for what cannot be drawn in parts (need_parts_can_draw). */
     PartsPicture draw(const Scene& scene);
+
+    /**
+     * A still scene for each picture of the scene's animation, with its time step and camera; colours mean the same in all.
+     * Throws Error for phases of a warp.
+     */
+    std::vector<Scene> frames(const Scene& scene);
 
     /** What this process had of the last picture. */
     const PartsWork& own_work() const;

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/parts/team.hpp>
+#include <core/base/team.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/field/picture_ranges.hpp>
 #include <core/render/renderer.hpp>

@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 
 using namespace elvis::test;
 
@@ -133,6 +134,93 @@ TEST_CASE("A process that is killed ends all") {
     CHECK(outcome.status != 0);
     for (const std::string& name : names_in(folder)) {
         CHECK(name.find("many") == std::string::npos);
+    }
+}
+
+TEST_CASE("Films: groups of processes draw pictures of their own, with the bytes of one process") {
+    const MpiFolder folder;
+    folder.write("film.json", R"({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [48, 36]},
+        "surfaces": [{"type": "plane", "plane": [1, 0, 0, 0.1]}], "animation": {"turntable": {"frames": 5}}})");
+    REQUIRE(folder.run("render film.json --parts 2 -o one").status == 0);
+    for (const std::string n : {"3", "4"}) {
+        INFO(n << " processes");
+        std::filesystem::remove_all(folder.path("many"));
+        const Outcome outcome = folder.launch("-n " + n + " \"$E\" render film.json --parts 2 -o many");
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        CHECK(outcome.err.find(n == "4" ? "by 2 groups" : "by 1 group") != std::string::npos);
+        CHECK(outcome.err.find("rank 2 draws with ") != std::string::npos);
+        for (const std::string picture : {"0", "1", "2", "3", "4"}) {
+            CHECK(folder.read("many/frame_000" + picture + ".png") == folder.read("one/frame_000" + picture + ".png"));
+        }
+    }
+    CHECK(folder.read("one/frame_0000.png") != folder.read("one/frame_0001.png"));
+    // What is there stays.
+    folder.write("many/frame_0001.png", "kept");
+    std::filesystem::remove(folder.path("many/frame_0003.png"));
+    REQUIRE(folder.launch("-n 4 \"$E\" render film.json --parts 2 -o many --resume").status == 0);
+    CHECK(folder.read("many/frame_0001.png") == "kept");
+    CHECK(folder.read("many/frame_0003.png") == folder.read("one/frame_0003.png"));
+}
+
+TEST_CASE("Parts of a file are drawn by processes, too") {
+    const MpiFolder folder;
+    std::string parts;
+    for (int element = 0; element < 36; ++element) {
+        parts += std::to_string(element % 3) + "\n";
+    }
+    folder.write("parts.txt", parts);
+    REQUIRE(folder.run("render scene.json --parts parts.txt -o one.png --buffers one.h5").status == 0);
+    const Outcome outcome = folder.launch("-n 2 \"$E\" render scene.json --parts parts.txt -o many.png --buffers many.h5");
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    CHECK(folder.read("many.png") == folder.read("one.png"));
+    CHECK(folder.read("many.h5") == folder.read("one.h5"));
+    CHECK(folder.run("render scene.json --parts 0 -o no.png").status == 2);
+    CHECK(folder.run("render scene.json --parts missing.txt -o no.png").err.find("missing.txt: there is no such file") !=
+          std::string::npos);
+}
+
+TEST_CASE("Conversion by processes gives the file of one process") {
+    const MpiFolder folder;
+    folder.write("mixed.json", R"({"generator": 1, "mesh": "waves", "shape": "mixed", "elements": [8, 6, 5], "order": 3,
+        "time_steps": 2, "fields": ["waves", "element"]})");
+    REQUIRE(folder.run("convert mixed.json -o one.h5 --report one.json", "SOURCE_DATE_EPOCH=1000000000").status == 0);
+    for (const std::string n : {"1", "2", "3", "4"}) {
+        INFO(n << " processes");
+        const Outcome outcome = folder.launch(
+            "-n " + n + " -x SOURCE_DATE_EPOCH=1000000000 \"$E\" convert mixed.json -o many.h5 --report many.json");
+        INFO(outcome.err);
+        REQUIRE(outcome.status == 0);
+        if (std::system("command -v h5diff >/dev/null") == 0) {
+            const std::string diff = "cd '" + folder.path("") + "' && h5diff one.h5 many.h5";
+            CHECK(std::system(diff.c_str()) == 0);
+        }
+        CHECK(folder.read("many.h5").size() == folder.read("one.h5").size());
+        auto one = nlohmann::json::parse(folder.read("one.json")), many = nlohmann::json::parse(folder.read("many.json"));
+        one.erase("seconds");
+        many.erase("seconds");
+        CHECK(one == many);
+    }
+}
+
+TEST_CASE("A conversion of which a process fails or is killed ends, and leaves no file") {
+    const MpiFolder folder;
+    // Long enough to be killed in the middle.
+    folder.write("large.json", R"({"generator": 1, "mesh": "waves", "elements": [40, 40, 40], "order": 6, "time_steps": 4,
+        "fields": ["waves", "sphere"]})");
+    const std::string convert = " \"$E\" convert large.json -o many.h5";
+    const std::string killed = " sh -c '\"$0\" convert large.json -o many.h5 & sleep 2; kill -9 $!; wait $!' \"$E\"";
+    for (const std::string& words : {"-n 1" + convert + " : -n 1 \"$E\" convert missing.json -o many.h5",
+                                     "-n 1" + convert + " : -n 1" + killed, "-n 1" + killed + " : -n 1" + convert}) {
+        const auto start = std::chrono::steady_clock::now();
+        const Outcome outcome = folder.launch(words);
+        INFO(words << "\n" << outcome.err);
+        CHECK(seconds_since(start) < 12); // Of them 2 before the end.
+        CHECK(outcome.status != 0);
+        for (const std::string& name : names_in(folder)) {
+            CHECK(name.find("many") == std::string::npos);
+        }
     }
 }
 

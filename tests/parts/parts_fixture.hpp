@@ -46,11 +46,14 @@ public:
 
     Frame in_parts(const Scene& scene, std::uint32_t n_parts) {
         if (!m_parts || m_n_parts != n_parts) {
-            m_parts = std::make_unique<VolumeInParts>(source(), *m_whole, device(), m_precision,
-                                                      Partition::in_shares(m_whole->n_elements(), n_parts), m_alone);
+            m_parts = open_parts(Partition::in_shares(m_whole->n_elements(), n_parts));
             m_n_parts = n_parts;
         }
         return m_parts->draw(scene).still.frame;
+    }
+
+    std::unique_ptr<VolumeInParts> open_parts(Partition partition) {
+        return std::make_unique<VolumeInParts>(source(), *m_whole, device(), m_precision, std::move(partition), m_alone);
     }
 
 private:

@@ -69,10 +69,8 @@ struct Picture {
     const char* keys;
 };
 
-void compare(Stage& stage, const Picture& picture, std::uint32_t n_parts) {
-    const Scene scene = stage.scene(picture.keys);
-    const Frame whole = stage.as_whole(scene);
-    const Differences found = between(whole, stage.in_parts(scene, n_parts));
+void compare(const Picture& picture, std::uint32_t n_parts, const Frame& whole, const Frame& parts) {
+    const Differences found = between(whole, parts);
     CHECK(whole.counts.hit_pixels + whole.counts.volume_pixels > 1000);
     std::printf("%-34s %u parts: largest difference of colour %.1e, value %.1e, depth %.1e, normal %.1e; of %zu pixels "
                 "colour is off in %zu (%zu unflagged), element in %zu, mask in %zu (%zu unflagged); flagged %zu, in the whole "
@@ -85,6 +83,11 @@ void compare(Stage& stage, const Picture& picture, std::uint32_t n_parts) {
     CHECK(found.color <= tolerance);
     // What parts add to doubt is a matter of few pixels, near borders between parts.
     CHECK(found.n_flagged <= found.n_flagged_whole + whole.flags.size() / 20);
+}
+
+void compare(Stage& stage, const Picture& picture, std::uint32_t n_parts) {
+    const Scene scene = stage.scene(picture.keys);
+    compare(picture, n_parts, stage.as_whole(scene), stage.in_parts(scene, n_parts));
 }
 
 constexpr Picture surfaces[] = {
@@ -154,6 +157,26 @@ TEST_CASE("Parts without elements change nothing") {
     CHECK(eight.color == twenty.color);
     CHECK(eight.element == twenty.element);
     CHECK(eight.flags == twenty.flags);
+}
+
+TEST_CASE("Ragged and interleaved parts, one of them without elements, are those of the whole") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [4, 3, 3], "order": 2, "field": "waves"})");
+    const std::uint64_t n = stage.volume().n_elements();
+    std::mt19937 random(3);
+    for (const bool is_ragged : {true, false}) {
+        // Either every element by chance, or one after the other; part 2 of 5 has none.
+        std::vector<std::vector<Span>> parts(5);
+        for (std::uint64_t element = 0; element < n; ++element) {
+            const std::uint64_t one = (is_ragged ? random() : element) % 4;
+            parts[one < 2 ? one : one + 1].push_back({element, element + 1});
+        }
+        const std::unique_ptr<VolumeInParts> drawn = stage.open_parts(Partition(std::move(parts)));
+        for (const Picture& picture : {surfaces[3], Picture{"the volume itself", R"("volume_rendering": {})"}}) {
+            const Scene scene = stage.scene(picture.keys);
+            compare({is_ragged ? "ragged" : "interleaved", picture.keys}, 5, stage.as_whole(scene),
+                    drawn->draw(scene).still.frame);
+        }
+    }
 }
 
 TEST_CASE("Volume rendering in parts is that of the whole") {

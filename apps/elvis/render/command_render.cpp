@@ -154,10 +154,10 @@ void add_output(CLI::App& command, RenderArguments& a) {
                        "What passes take from each other, to compare times: all, none, depths or rows (the default)");
     command.add_option("--repeat", a.repeat, "Draw the frame that many times more, and put the times into --stats")
         ->check(CLI::NonNegativeNumber);
-    command
-        .add_option("--parts", a.parts,
-                    "Draw the volume in that many parts, one after the other, as elvis-mpi does with many processes")
-        ->check(CLI::Range(1, 1000000));
+    command.add_option(
+        "--parts", a.parts,
+        "N: draw the volume in that many parts, one after the other, as elvis-mpi does with many processes; FILE: "
+        "in those that it gives each element, as gpmetis writes them");
     command.add_option("--bits", a.bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
     command.add_flag("--validation", a.validation, "Run with the Vulkan validation layer; any message is an error");
     command.add_flag("--schema", a.schema, "Print the JSON Schema of scene files");
@@ -165,7 +165,7 @@ void add_output(CLI::App& command, RenderArguments& a) {
 
 } // namespace
 
-void add_render(CLI::App& app, Team* team) {
+void add_render(CLI::App& app, DivisibleTeam* team) {
     CLI::App* command = app.add_subcommand("render", "Draw pictures of a volume, or an animation, from scene files or options");
     auto a = std::make_shared<RenderArguments>();
     a->team = team;

@@ -1,6 +1,7 @@
 #include "film.hpp"
 
 #include <core/base/error.hpp>
+#include <cstdio>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -38,6 +39,12 @@ int run_film_maker(std::vector<std::string> arguments) {
 }
 
 } // namespace
+
+std::string frame_name(std::uint32_t frame) {
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%04u.png", frame);
+    return name;
+}
 
 void require_film_maker() {
     const char* const path = std::getenv("PATH");

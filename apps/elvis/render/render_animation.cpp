@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
-#include <cstdio>
 #include <filesystem>
 
 namespace elvis::commands {
@@ -20,15 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/** The same for one run and the next, however many pictures there are. */
-constexpr const char* name_pattern = "frame_%04d.png";
-
-fs::path name_of(std::uint32_t frame) {
-    char name[32];
-    std::snprintf(name, sizeof name, "frame_%04u.png", frame);
-    return name;
-}
 
 /** One entry of --stats. */
 ordered_json entry_of(std::uint32_t frame, const fs::path& file, std::uint32_t time_step, const picture& drawn) {
@@ -55,11 +45,11 @@ public:
         const InterruptGuard interrupts(control);
         const ProgressBar progress(control);
         for (std::uint32_t frame = 0; frame < m_n_frames; ++frame) {
-            if (m_arguments.resume && fs::exists(m_folder / name_of(frame))) {
+            if (m_arguments.resume && fs::exists(m_folder / frame_name(frame))) {
                 ++m_n_kept;
                 continue;
             }
-            control.progress(static_cast<double>(frame) / m_n_frames, name_of(frame).string());
+            control.progress(static_cast<double>(frame) / m_n_frames, frame_name(frame));
             draw(frame, control);
         }
         spdlog::info("{} in {}, {} of them kept", counted(m_n_frames, "picture"), m_folder.string(), m_n_kept);
@@ -73,9 +63,9 @@ public:
 private:
     void draw(std::uint32_t frame, TaskControl& control) {
         const picture drawn = m_animation.render(frame, m_options, {{}, [&] { return control.is_cancelled(); }});
-        drawn.write_png((m_folder / name_of(frame)).string(), static_cast<std::uint32_t>(m_arguments.bits));
-        say(drawn.remarks(), name_of(frame).string() + ": ");
-        m_entries.push_back(entry_of(frame, name_of(frame), m_animation.time_step(frame), drawn));
+        drawn.write_png((m_folder / frame_name(frame)).string(), static_cast<std::uint32_t>(m_arguments.bits));
+        say(drawn.remarks(), frame_name(frame) + ": ");
+        m_entries.push_back(entry_of(frame, frame_name(frame), m_animation.time_step(frame), drawn));
     }
 
     const RenderArguments& m_arguments;
@@ -123,7 +113,7 @@ void render_animation(const RenderArguments& arguments, const scene& shown, cons
         write_text_file(arguments.stats, root.dump(2) + "\n");
     }
     if (!arguments.film.empty()) {
-        make_film(fs::path(arguments.output) / name_pattern, frames.info().frames_a_second, arguments.film);
+        make_film(fs::path(arguments.output) / frame_pattern, frames.info().frames_a_second, arguments.film);
     }
 }
 

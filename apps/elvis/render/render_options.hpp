@@ -6,7 +6,7 @@
 
 #include <apps/elvis/warp_option.hpp>
 
-#include <core/parts/team.hpp>
+#include <core/base/team.hpp>
 
 #include <elvis/elvis.hpp>
 
@@ -71,10 +71,10 @@ struct RenderArguments {
     int time_step = -1;
     int repeat = 0;
     int bits = 8;
-    /** 0: the volume is drawn as a whole. */
-    int parts = 0;
+    /** How many, or a file that says it of each element; empty: the volume is drawn as a whole. */
+    std::string parts;
     /** Who draws them; null: this process by itself. */
-    Team* team = nullptr;
+    DivisibleTeam* team = nullptr;
     bool validation = false;
     bool schema = false;
 };

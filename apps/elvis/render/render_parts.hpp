@@ -10,10 +10,7 @@
 
 namespace elvis::commands {
 
-/** Throws UsageError for options that do not go with --parts, and for several processes without it. */
-void check_parts(const RenderArguments& arguments, bool is_animation);
-
-/** Draws one scene; its files are written by the first process of the team. */
+/** Draws one scene, or its animation; files are written by the first process of the team, or of each of its groups. */
 void render_parts(const RenderArguments& arguments, const scene& shown);
 
 } // namespace elvis::commands

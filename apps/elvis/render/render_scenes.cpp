@@ -1,5 +1,6 @@
 #include "render_scenes.hpp"
 #include "output_endings.hpp"
+#include "part_choice.hpp"
 #include "render_animation.hpp"
 #include "render_parts.hpp"
 #include "render_session.hpp"
@@ -237,7 +238,7 @@ void render_scenes(const RenderArguments& arguments) {
         if (all.size() > 1) {
             spdlog::info("scene: {}", wanted.arguments.input);
         }
-        if (arguments.parts > 0) {
+        if (!arguments.parts.empty()) {
             render_parts(wanted.arguments, wanted.shown);
         } else {
             render_one(wanted, session, {}, start);

@@ -1,11 +1,12 @@
 /**
  * @file team.hpp
- * The processes that draw one picture together.
+ * Processes that work on one thing together.
  */
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -31,11 +32,22 @@ public:
     bool is_first() const { return rank() == 0; }
 };
 
+/** One that works on several things at the same time, each by a group of members. */
+class DivisibleTeam : public Team {
+public:
+    /** This member's of so many groups, no more than members; groups are of consecutive ranks. Called by all. */
+    virtual std::unique_ptr<Team> group(std::uint32_t n_groups) = 0;
+    std::uint32_t group_number(std::uint32_t n_groups) const {
+        return static_cast<std::uint32_t>(std::uint64_t{rank()} * n_groups / size());
+    }
+};
+
 /** One process by itself. */
-class OneProcess final : public Team {
+class OneProcess final : public DivisibleTeam {
 public:
     std::uint32_t rank() const override { return 0; }
     std::uint32_t size() const override { return 1; }
+    std::unique_ptr<Team> group(std::uint32_t) override { return std::make_unique<OneProcess>(); }
     void minimum(std::span<double>) override {}
     std::vector<double> joined(std::vector<double> numbers) override { return numbers; }
     std::vector<double> of_first(std::vector<double> numbers) override { return numbers; }
