@@ -93,7 +93,7 @@ def main():
     parser.add_argument("--parts", default="8,64,512,4096")
     parser.add_argument("--size", default="1920x1080")
     parser.add_argument("--device", type=float, default=38.9, help="milliseconds of the whole volume on one device")
-    parser.add_argument("--fold", type=float, default=5, help="million runs a second that one process puts together")
+    parser.add_argument("--fold", type=float, default=6, help="million runs a second that one process puts together")
     parser.add_argument("--network", type=float, default=12.5, help="GB a second into one process")
     parser.add_argument("--rows", type=int, default=54, help="rows of pixels that are followed")
     arguments = parser.parse_args()

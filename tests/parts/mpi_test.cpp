@@ -210,17 +210,27 @@ TEST_CASE("A conversion of which a process fails or is killed ends, and leaves n
     folder.write("large.json", R"({"generator": 1, "mesh": "waves", "elements": [40, 40, 40], "order": 6, "time_steps": 4,
         "fields": ["waves", "sphere"]})");
     const std::string convert = " \"$E\" convert large.json -o many.h5";
-    const std::string killed = " sh -c '\"$0\" convert large.json -o many.h5 & sleep 2; kill -9 $!; wait $!' \"$E\"";
-    for (const std::string& words : {"-n 1" + convert + " : -n 1 \"$E\" convert missing.json -o many.h5",
-                                     "-n 1" + convert + " : -n 1" + killed, "-n 1" + killed + " : -n 1" + convert}) {
-        const auto start = std::chrono::steady_clock::now();
+    const std::string killed =
+        " sh -c '\"$0\" convert large.json -o many.h5 & until ls many.h5.part* >/dev/null 2>&1; do sleep 0.05; "
+        "done; sleep 0.3; touch killed; kill -9 $!; wait $!' \"$E\"";
+    for (const std::string& words : {"-n 1" + convert + " : -n 1" + killed, "-n 1" + killed + " : -n 1" + convert}) {
+        std::filesystem::remove(folder.path("killed"));
         const Outcome outcome = folder.launch(words);
+        const auto end = std::filesystem::file_time_type::clock::now();
         INFO(words << "\n" << outcome.err);
-        CHECK(seconds_since(start) < 12); // Of them 2 before the end.
+        REQUIRE(std::filesystem::exists(folder.path("killed")));
+        CHECK(end - std::filesystem::last_write_time(folder.path("killed")) < std::chrono::seconds(10));
         CHECK(outcome.status != 0);
         for (const std::string& name : names_in(folder)) {
             CHECK(name.find("many") == std::string::npos);
         }
+    }
+    const Outcome failed = folder.launch("-n 1" + convert + " : -n 1 \"$E\" convert missing.json -o many.h5");
+    CHECK(failed.status != 0);
+    CHECK(count_of(failed.err, "elvis-mpi: rank") == 1);
+    CHECK(failed.err.find("elvis-mpi: rank 1: missing.json") != std::string::npos);
+    for (const std::string& name : names_in(folder)) {
+        CHECK(name.find("many") == std::string::npos);
     }
 }
 
