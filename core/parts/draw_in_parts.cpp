@@ -13,8 +13,6 @@
 #include <core/parts/whole_ranges.hpp>
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
-#include <core/scene/resolve.hpp>
-#include <core/session/animation_pictures.hpp>
 #include <core/session/missed_surfaces.hpp>
 
 #include <algorithm>
@@ -269,29 +267,6 @@ VolumeInParts::VolumeInParts(std::shared_ptr<const native::VolumeSource> source,
 }
 
 VolumeInParts::~VolumeInParts() = default;
-
-std::vector<Scene> VolumeInParts::frames(const Scene& scene) {
-    if (scene.animation->n_phases > 0) {
-        refuse(scene, "phases of a warp");
-    }
-    if (scene.warp && scene.animation->time_steps) {
-        refuse(scene, "a warp by several time steps");
-    }
-    Scene still = scene;
-    still.range_steps = steps_of_animation(scene, m_impl->whole);
-    still.animation.reset();
-    if (!still.range_steps.empty()) {
-        still.time_step = still.range_steps.front();
-    }
-    const Camera camera = make_frame_request(still, m_impl->whole, *m_impl->ranges).camera;
-    std::vector<Scene> all;
-    for (const AnimationFrame& frame : animation_frames(*scene.animation, still.range_steps, scene.time_step, camera)) {
-        Scene& one = all.emplace_back(still);
-        one.time_step = frame.time_step;
-        set_camera(one.camera, frame.camera);
-    }
-    return all;
-}
 
 const PartsWork& VolumeInParts::own_work() const { return m_impl->work; }
 

@@ -64,12 +64,6 @@ public:
     /** Throws Error for what cannot be drawn in parts (need_parts_can_draw). */
     PartsPicture draw(const Scene& scene);
 
-    /**
-     * A still scene for each picture of the scene's animation, with its time step and camera; colours mean the same in all.
-     * Throws Error for phases of a warp.
-     */
-    std::vector<Scene> frames(const Scene& scene);
-
     /** What this process had of the last picture. */
     const PartsWork& own_work() const;
 

@@ -2,8 +2,11 @@
 #include "film.hpp"
 
 #include <core/base/counted.hpp>
+#include <core/base/error.hpp>
 #include <core/parts/draw_in_parts.hpp>
 #include <core/scene/output/png_file.hpp>
+#include <core/scene/resolve.hpp>
+#include <core/session/animation_pictures.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -17,6 +20,29 @@ namespace elvis::commands {
 namespace {
 
 namespace fs = std::filesystem;
+
+/** A still scene for each picture, with its time step and camera; colours mean the same in all. Called by all of a group. */
+std::vector<Scene> frames_of(const Scene& scene, const RuntimeVolume& whole, VolumeInParts& parts) {
+    if (scene.warp && (scene.animation->n_phases > 0 || scene.animation->time_steps)) {
+        throw Error(scene.volume,
+                    "a warp that differs from picture to picture cannot be drawn in parts yet; without --parts it can");
+    }
+    Scene still = scene;
+    still.range_steps = steps_of_animation(scene, whole);
+    still.animation.reset();
+    if (!still.range_steps.empty()) {
+        still.time_step = still.range_steps.front();
+    }
+    // Where the camera stands follows from bounds and ranges that the group finds out together.
+    const Camera camera = parts.draw(still).still.request.camera;
+    std::vector<Scene> all;
+    for (const AnimationFrame& frame : animation_frames(*scene.animation, still.range_steps, scene.time_step, camera)) {
+        Scene& one = all.emplace_back(still);
+        one.time_step = frame.time_step;
+        set_camera(one.camera, frame.camera);
+    }
+    return all;
+}
 
 /** A group's pictures. */
 class GroupPictures {
@@ -64,7 +90,7 @@ void render_parts_film(const RenderArguments& arguments, const Scene& scene, con
     fs::create_directories(arguments.output);
     VolumeInParts parts(volume.source, volume.whole, device, scene.precision.value_or(Precision::float32), std::move(partition),
                         *group, &control);
-    const std::vector<Scene> frames = parts.frames(scene);
+    const std::vector<Scene> frames = frames_of(scene, volume.whole, parts);
     GroupPictures pictures(arguments, parts, *group);
     for (auto frame = team.group_number(n_groups); frame < frames.size(); frame += n_groups) {
         pictures.draw(frame, frames[frame]);
