@@ -5,10 +5,11 @@
 
 #include <sys/wait.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
+#include <filesystem>
 #include <numbers>
 #include <sstream>
 
@@ -110,6 +111,16 @@ TEST_CASE("A toy solver with spectral elements on one and on four ranks makes wh
     CHECK(words.find("heat: rank 0: ") != std::string::npos);
     CHECK(words.find("'v'") != std::string::npos);
     CHECK(words.find("heat: ") == words.rfind("heat: "));
+
+    // A rank that is killed ends all; pictures are whole or not there.
+    examples.launch(1, "build/heat " + plan + " killed : -n 1 sh -c 'build/heat " + plan +
+                           " killed & sleep 1; touch kill; kill -9 $!; wait $!' || touch end");
+    CHECK(std::filesystem::last_write_time(examples.path("end")) - std::filesystem::last_write_time(examples.path("kill")) <
+          std::chrono::seconds(10));
+    for (const auto& entry : std::filesystem::directory_iterator(examples.path("killed"))) {
+        const std::string ending = entry.path().extension().string();
+        CHECK((ending == ".png" || ending == ".csv"));
+    }
 
     if (std::filesystem::exists(examples.path("build/wave"))) {
         examples.shell("echo '{\"version\": 1, \"outputs\": [{\"name\": \"p\", \"every\": 5, \"points\": [[1.5, 1, 1.5]]},"
