@@ -70,7 +70,7 @@ elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame, 
         Scene scene = state.pictures.scene_of(frame);
         const std::shared_ptr<Data> shown = shown_data(state.data, scene, task);
         const DataTask running(*shown, task);
-        trace_streamlines(*shown, scene);
+        provide_glyphs(*shown, scene);
         Renderer& renderer = shown->renderer(state.precision);
         *picture = new_picture(shown, state.precision,
                                state.pictures.draw(frame, scene, shown->volume, renderer,

@@ -87,6 +87,7 @@ std::shared_ptr<Data> Data::warped(const SceneWarp& warp, std::uint32_t time_ste
 void Data::forget_fields(std::optional<std::uint32_t> only) {
     m_warped.reset();
     streamlines.forget();
+    arrow_sets.forget();
     extrema.forget_fields();
     if (m_renderer) {
         m_renderer->forget_fields(only);

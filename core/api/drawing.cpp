@@ -22,10 +22,14 @@ std::shared_ptr<Data> shown_data(const std::shared_ptr<Data>& data, const Scene&
     return data->warped(*scene.warp, scene.time_step);
 }
 
-void trace_streamlines(Data& data, Scene& scene) {
-    const auto is_one = [](const SceneSurface& surface) { return surface.streamlines.has_value(); };
-    if (std::ranges::any_of(scene.surfaces, is_one)) {
+void provide_glyphs(Data& data, Scene& scene) {
+    const auto is_line = [](const SceneSurface& surface) { return surface.streamlines.has_value(); };
+    if (std::ranges::any_of(scene.surfaces, is_line)) {
         data.streamlines.provide(scene, data.volume, data.bounds(), *data.control);
+    }
+    const auto is_arrow = [](const SceneSurface& surface) { return surface.arrows.has_value(); };
+    if (std::ranges::any_of(scene.surfaces, is_arrow)) {
+        data.arrow_sets.provide(scene, data.volume, data.bounds(), *data.control);
     }
 }
 

@@ -19,8 +19,8 @@ Scene scene_for(const Data& data, Scene scene);
  */
 std::shared_ptr<Data> shown_data(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_task* task);
 
-/** Gives a scene's streamlines their tubes; while the data's mutex is held. */
-void trace_streamlines(Data& data, Scene& scene);
+/** Gives a scene's streamlines their tubes, and its arrows their glyphs; while the data's mutex is held. */
+void provide_glyphs(Data& data, Scene& scene);
 
 inline Precision precision_of(const Scene& scene) { return scene.precision.value_or(Precision::float32); }
 

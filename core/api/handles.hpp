@@ -6,6 +6,7 @@
 
 #include "arrays.hpp"
 
+#include <core/arrows/scene_arrows.hpp>
 #include <core/base/cancel.hpp>
 #include <core/base/host.hpp>
 #include <core/plugin_host/plugin.hpp>
@@ -100,6 +101,7 @@ struct Data {
     std::unique_ptr<Arrays> arrays;
     ExtremaFinder extrema;
     StreamlineTubes streamlines;
+    SceneArrowSets arrow_sets;
 
 private:
     /** The volume on another device. A volume takes one call at a time: each device has its own. */

@@ -69,7 +69,7 @@ elvis_result elvis_data_pick(elvis_data* data, const elvis_scene* scene, double 
         Data& state = *with;
         Scene shown = scene_for(state, scene->state.scene);
         const DataTask running(state, task);
-        trace_streamlines(state, shown);
+        provide_glyphs(state, shown);
         const Picked picked = pick(shown, {column, row}, state.volume, state.renderer(precision_of(shown)),
                                    [&]() -> Prober& { return state.prober(ProbeOptions::Evaluation::automatic); });
         *text = text_for_caller(picked_json(state.volume, picked).dump());

@@ -55,7 +55,7 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         still.animation.reset();
         resize(still, known);
         const DataTask running(state, task);
-        trace_streamlines(state, still);
+        provide_glyphs(state, still);
         const Precision precision = precision_of(still);
         *picture = new_picture(shown, precision,
                                draw_still(still, state.volume, state.renderer(precision),
@@ -74,7 +74,7 @@ elvis_result elvis_render_for_screen(elvis_data* data, const elvis_scene* scene,
         Data& state = *shown;
         Scene said = scene_for(state, scene->state.scene);
         const DataTask running(state, task);
-        trace_streamlines(state, said);
+        provide_glyphs(state, said);
         const Precision precision = precision_of(said);
         *picture = new_picture(shown, precision,
                                draw_for_screen(said, state.volume, state.renderer(precision), how, state.control.get()));

@@ -318,6 +318,9 @@ void need_parts_can_draw(const Scene& scene) {
     if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.streamlines.has_value(); })) {
         refuse(scene, "streamlines");
     }
+    if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.arrows.has_value(); })) {
+        refuse(scene, "arrows");
+    }
     if (scene.threshold) {
         refuse(scene, "a threshold");
     }

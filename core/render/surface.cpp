@@ -19,7 +19,10 @@ struct TraitsOfKind {
         const SurfaceTraits of_faces = std::visit(*this, wires.faces);
         return {.fits_flat = of_faces.fits_flat, .fits_solid = of_faces.fits_solid, .wires = &wires};
     }
-    SurfaceTraits operator()(const CutShape&) const { return {.may_lie_outside = true}; }
+    SurfaceTraits operator()(const CutShape& shape) const {
+        const bool is_arrows = std::holds_alternative<ArrowSurface>(shape);
+        return {.may_lie_outside = !is_arrows, .has_own_values = is_arrows};
+    }
     SurfaceTraits operator()(const Isosurfaces& isosurfaces) const { return {.isosurfaces = &isosurfaces}; }
 };
 

@@ -132,6 +132,8 @@ struct SurfaceTraits {
     const WireFrame* wires = nullptr;
     /** Its form does not come from the elements: parts of it may lie in none. */
     bool may_lie_outside = false;
+    /** Each of its parts has a value of its own, in place of the field's at its points: no lines, conditions or outside. */
+    bool has_own_values = false;
     /** All faces without neighbour. */
     bool is_whole_boundary = false;
     /** Of elements that are cut (elvis_inside) it shows faces alone, not where the cut ends them. */

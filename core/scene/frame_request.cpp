@@ -224,11 +224,12 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
     const SceneColorMap& map = own.color_map ? *own.color_map : scene.color_map;
     const std::array<double, 2> range = range_of(map, surface.field, surface.field_label, scene, ranges, remarks);
     surface.colors = make_color_table(map, range);
-    if (map.is_logarithmic && !surface.field.expression) {
-        // Small values keep their digits: nothing is subtracted from them.
+    const SurfaceTraits traits = traits_of(surface.geometry);
+    if ((map.is_logarithmic && !surface.field.expression) || traits.has_own_values) {
+        // Small values keep their digits: nothing is subtracted from them; nor from values that do not come from the device.
         surface.field.offset = 0;
     }
-    if (traits_of(surface.geometry).wires == nullptr) {
+    if (traits.wires == nullptr && !traits.has_own_values) {
         surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, surface.colors, range, scene.size);
         surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
     }

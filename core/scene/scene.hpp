@@ -93,6 +93,18 @@ struct SceneStreamlines {
     std::optional<double> radius{};
 };
 
+/** Arrows of a vector field, from evenly spaced points on; their colours are those of the surface's field there. */
+struct SceneArrows {
+    /** A vector field or expression. */
+    std::string vectors{};
+    /** The name of the scene's plane, boundary or isosurface on which they stand; in the volume if empty. */
+    std::string on{};
+    /** Between them; by default a part of the diagonal of the bounds. */
+    std::optional<double> spacing{};
+    /** Length of the arrow for a vector of length 1; by default the longest arrow is as long as the spacing. */
+    std::optional<double> scale{};
+};
+
 /** What it lacks it takes from the scene. */
 struct SceneSurface {
     SurfaceGeometry geometry;
@@ -112,6 +124,8 @@ struct SceneSurface {
     bool is_shown = true;
     /** Of a TubeSurface: what its tubes are about. */
     std::optional<SceneStreamlines> streamlines{};
+    /** Of an ArrowSurface: what its arrows are. */
+    std::optional<SceneArrows> arrows{};
 };
 
 /** A triangle of density around a value, such as makes a semi-transparent isosurface. */

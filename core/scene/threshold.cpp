@@ -179,7 +179,7 @@ void apply_threshold(const Scene& scene, const RuntimeVolume& volume, FrameReque
     bool is_closed = false;
     for (Surface& surface : request.surfaces) {
         const SurfaceTraits traits = traits_of(surface.geometry);
-        if (traits.wires == nullptr) {
+        if (traits.wires == nullptr && !traits.has_own_values) {
             surface.conditions = conditions;
         }
         is_closed = is_closed || traits.is_whole_boundary;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/base/vector3.hpp>
+#include <core/surface/arrow_set.hpp>
 #include <core/surface/patch_mesh.hpp>
 #include <core/surface/triangle_mesh.hpp>
 #include <core/surface/tube_set.hpp>
@@ -68,7 +69,13 @@ struct TubeSurface {
     std::shared_ptr<const TubeSet> tubes;
 };
 
-using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface, TubeSurface>;
+struct ArrowSurface {
+    /** Null before they are known: then it can be read and written, not drawn. */
+    std::shared_ptr<const ArrowSet> arrows;
+};
+
+using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface, TubeSurface,
+                              ArrowSurface>;
 
 /** Checks what the comments above ask for; throws Error that names `place` and the number. */
 void check_shape(const CutShape& shape, const std::string& place);

@@ -108,6 +108,7 @@ struct FormOf {
     Form operator()(const MeshSurface&) const { return {}; }
     Form operator()(const BezierSurface&) const { return {}; }
     Form operator()(const TubeSurface&) const { return {}; }
+    Form operator()(const ArrowSurface&) const { return {}; }
 };
 
 /** A point of the surface near the reference point, in local coordinates: Newton's method along gradients. */
@@ -187,6 +188,7 @@ std::string shape_solver(const CutShape& shape) {
     return std::holds_alternative<MeshSurface>(shape)       ? "mesh"
            : std::holds_alternative<BezierSurface>(shape)   ? "bezier"
            : std::holds_alternative<TubeSurface>(shape)     ? "tubes"
+           : std::holds_alternative<ArrowSurface>(shape)    ? "arrows"
            : std::holds_alternative<ImplicitSurface>(shape) ? "implicit"
            : std::holds_alternative<Torus>(shape)           ? "torus"
            : has_ends(shape)                                ? "round"
@@ -207,6 +209,11 @@ ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
     }
     if (const auto* surface = std::get_if<TubeSurface>(&shape)) {
         return {solver, {row(convert(reference) - convert(shape_middle(shape)), surface->tubes->radius)}};
+    }
+    if (solver == "arrows") {
+        return {solver,
+                {row(convert(reference) - convert(shape_middle(shape)), 0),
+                 {ArrowSet::shaft_radius, ArrowSet::head_radius, ArrowSet::head_length, 0}}};
     }
     return {solver, quadric_rows(std::visit(FormOf{convert(reference)}, shape))};
 }
@@ -235,6 +242,7 @@ std::array<double, 6> shape_bounds(const CutShape& shape) {
         std::array<double, 6> operator()(const MeshSurface& surface) const { return surface.mesh->bounds(); }
         std::array<double, 6> operator()(const BezierSurface& surface) const { return surface.mesh->bounds(); }
         std::array<double, 6> operator()(const TubeSurface& surface) const { return surface.tubes->bounds(); }
+        std::array<double, 6> operator()(const ArrowSurface& surface) const { return surface.arrows->bounds(); }
         std::array<double, 6> operator()(const Torus& torus) const {
             return box_of(torus.center, torus.major_radius + torus.minor_radius);
         }

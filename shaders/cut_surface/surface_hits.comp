@@ -26,6 +26,11 @@ layout(set = 0, binding = 6, std430) buffer core_marks_block { core_mark core_ma
 layout(set = 0, binding = 7, std430) buffer core_counts_block { uint core_counts[]; };
 // A depth for each pixel, if core_has_beyond; infinite where nothing more is wanted.
 layout(set = 0, binding = 8, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+// Surfaces whose parts have values of their own bring core_hit_value and core_hit_number, of the crossing found last: then it is all that
+// is to be known of the pixel.
+#ifdef CORE_HAS_OWN_VALUES
+layout(set = 0, binding = 9, std430) writeonly buffer core_samples_block { core_sample core_samples[]; };
+#endif
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_first_tile_row;
@@ -175,8 +180,14 @@ void main() {
         const core_surface_ray ray = core_surface_ray_of(along, elvis_real(row), pixel);
         const core_hit hit = core_next_hit(ray);
         const bool is_wanted = ray.from < ray.to, is_hit = hit.is_hit && is_wanted;
-        const elvis_real along_ray = hit.error * length(ray.direction);
+        const elvis_real stretch = length(ray.direction), along_ray = hit.error * stretch;
         core_store_hit(pixel, ray, hit, is_wanted, along_ray);
+#ifdef CORE_HAS_OWN_VALUES
+        if (is_hit) {
+            core_samples[pixel] = core_sample(core_hit_value(), (hit.t + along.reference_distance) * stretch, core_hit_number());
+            core_marks[pixel].owner = core_surface_number << CORE_OWNER_BITS;
+        }
+#endif
         core_add_to_box(is_hit, ray, hit.t, along_ray, box);
         n_found += is_hit ? 1u : 0u;
         row = core_next_row(column, row + 1u, end_row);

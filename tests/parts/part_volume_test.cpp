@@ -116,6 +116,7 @@ TEST_CASE("What cannot be drawn in parts is refused") {
     };
     CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5}])"));
     CHECK(refused(R"("surfaces": [{"type": "streamlines", "flow": "velocity"}])"));
+    CHECK(refused(R"("surfaces": [{"type": "arrows", "vectors": "velocity"}])"));
     CHECK(refused(R"("threshold": "x < 0.5")"));
     CHECK(refused(R"("surfaces": [{"type": "elements"}])"));
     CHECK(refused(R"("surfaces": [{"type": "wireframe"}])"));

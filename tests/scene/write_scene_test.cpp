@@ -105,6 +105,7 @@ const std::vector<std::string>& documents() {
             "surfaces": [
               {"type": "streamlines", "flow": "curl(u)", "seeds": [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]], "direction": "backward", "length": 3.0,
                "tolerance": 1e-6, "radius": 0.01, "color": [0.9, 0.5, 0.2]},
+              {"type": "arrows", "vectors": "grad(p)", "on": "cut", "spacing": 0.25, "scale": 2.0, "field": "p", "opacity": 0.5},
               {"type": "streamlines", "flow": "u", "seed_grid": 7, "direction": "both", "tolerance": 1e-9, "field": "p"}],
             "animation": {"phases": 12, "frames_a_second": 25.0}})json"};
     return list;

@@ -174,6 +174,12 @@ void add_render(CLI::App& app, DivisibleTeam* team) {
     add_warp(*command, a->warp);
     command->add_option("--streamlines", a->streamlines,
                         "Tubes along this vector field, from a grid of points; a scene says more about them");
+    CLI::Option* const arrows = command->add_option(
+        "--arrows", a->arrows, "Arrows of this vector field, on the surfaces of the command line, or else in the volume");
+    command->add_option("--arrow-spacing", a->arrow_spacing, "Distance between them; default: 0.05 of the bounds' diagonal")
+        ->needs(arrows)
+        ->check(CLI::PositiveNumber)
+        ->check(finite_number());
     add_lines_and_colors(*command, *a);
     add_camera(*command, *a);
     add_picture(*command, *a);

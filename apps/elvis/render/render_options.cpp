@@ -41,9 +41,37 @@ private:
 /** Of the command line, seen from the working directory, whatever folder the scene is in. */
 std::string whole_path(const std::string& path) { return std::filesystem::absolute(path).lexically_normal().string(); }
 
+/** On the surfaces of the command line, which get names for it; in the volume if there are none. */
+void apply_arrows(const RenderArguments& arguments, Document& scene) {
+    if (arguments.arrows.empty()) {
+        return;
+    }
+    json arrows = {{"type", "arrows"}, {"vectors", arguments.arrows}};
+    if (arguments.arrow_spacing > 0) {
+        arrows["spacing"] = arguments.arrow_spacing;
+    }
+    std::vector<std::string> names;
+    const std::size_t n_surfaces = scene.has("/surfaces") ? scene.at("/surfaces").size() : 0;
+    for (std::size_t i = 0; i < n_surfaces; ++i) {
+        const std::string pointer = "/surfaces/" + std::to_string(i);
+        if (scene.at((pointer + "/type").c_str()) != "streamlines") {
+            names.push_back("surface " + std::to_string(i));
+            scene.set(pointer + "/name", names.back());
+        }
+    }
+    for (const std::string& name : names) {
+        arrows["on"] = name;
+        scene.set("/surfaces/-", arrows);
+    }
+    if (names.empty()) {
+        scene.set("/surfaces/-", arrows);
+    }
+}
+
 /** Surfaces of the command line stand instead of those of the file. */
 void apply_surfaces(const RenderArguments& arguments, Document& scene) {
-    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty() || !arguments.streamlines.empty()) {
+    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty() || !arguments.streamlines.empty() ||
+        !arguments.arrows.empty()) {
         scene.remove("/surfaces");
         scene.remove("/isosurfaces");
     }
@@ -69,6 +97,7 @@ void apply_surfaces(const RenderArguments& arguments, Document& scene) {
     if (!arguments.streamlines.empty()) {
         scene.set("/surfaces/-", {{"type", "streamlines"}, {"flow", arguments.streamlines}});
     }
+    apply_arrows(arguments, scene);
 }
 
 void apply_lines(const RenderArguments& arguments, Document& scene) {
@@ -299,7 +328,8 @@ void apply_image(const RenderArguments& arguments, Document& scene) {
     }
     if (!arguments.lighting.empty()) {
         scene.set("/lighting", arguments.lighting);
-    } else if (!arguments.is_scene && (!arguments.isovalues.empty() || !arguments.streamlines.empty()) &&
+    } else if (!arguments.is_scene &&
+               (!arguments.isovalues.empty() || !arguments.streamlines.empty() || !arguments.arrows.empty()) &&
                arguments.cut_planes.empty() && !arguments.boundary) {
         // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read. A scene says what
         // it wants.

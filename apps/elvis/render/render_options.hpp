@@ -43,6 +43,8 @@ struct RenderArguments {
     std::vector<double> isovalues;
     /** The vector field. */
     std::string streamlines;
+    std::string arrows;
+    double arrow_spacing = 0;
     std::string volume;
     std::string integrator;
     double volume_step = 0;

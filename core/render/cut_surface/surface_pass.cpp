@@ -106,8 +106,11 @@ struct SurfacePass::Picture {
 std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round) const {
     const Layer& layer = picture.target.layer;
     const Buffer* const beyond = picture.target.beyond;
-    const std::array<const Buffer*, 7> bindings = {
+    std::vector<const Buffer*> bindings = {
         &*m_hits, &layer.normals, &*m_bending, &*m_boxes, &layer.marks, &m_hit_counts, beyond != nullptr ? beyond : &m_nothing};
+    if (picture.solver.has_own_values()) {
+        bindings.push_back(&layer.samples);
+    }
     const std::uint32_t tile_pixels = tile_width_on(m_device) * surface_tile_height;
     const std::uint32_t rows_a_dispatch =
         items_a_dispatch(m_device, std::max(1u, pixels_a_dispatch / (picture.tiles_a_row * tile_pixels)));
@@ -160,15 +163,16 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
                           target.tile_rows(surface_tile_height)};
     provide_buffers(layer.n_pixels(), std::uint64_t{picture.tiles_a_row} * picture.tile_rows, solver.boxes_a_tile());
     write_view(m_frame, m_precision, view);
-    solver.begin(shape, view, shows_outside ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error,
-                 shows_outside && is_endless(shape));
+    const bool shows_all = shows_outside || solver.has_own_values();
+    solver.begin(shape, view, shows_all ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error,
+                 shows_all && is_endless(shape));
     m_counts.fill(0);
     const OpenPoints::Surface open{
         surface, component, target, m_frame, m_counts, &*m_hits, static_cast<float>(picture.most_error)};
     std::uint32_t n_found_before = 0;
     for (std::uint32_t round = 0; round < most_rounds; ++round) {
         const std::uint32_t n_hits = find_hits(picture, round);
-        if (n_hits == 0) {
+        if (n_hits == 0 || solver.has_own_values()) {
             break;
         }
         for (const ClassKernels& kernels : m_kernels) {

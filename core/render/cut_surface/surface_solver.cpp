@@ -27,7 +27,7 @@ SolverKind kind_of(const std::string& solver) {
     if (solver == "round") {
         return {"quadric", {{"CORE_HAS_ENDS", "1"}}};
     }
-    if (solver == "mesh" || solver == "bezier" || solver == "tubes" || solver == "implicit") {
+    if (solver == "mesh" || solver == "bezier" || solver == "tubes" || solver == "arrows" || solver == "implicit") {
         return {solver, {}, 4};
     }
     return {solver, {{"CORE_HAS_ENDS", "0"}}};
@@ -105,6 +105,8 @@ std::string solver_key(const CutShape& shape) {
         key << ' ' << static_cast<const void*>(patches->mesh.get());
     } else if (const auto* tubes = std::get_if<TubeSurface>(&shape)) {
         key << ' ' << static_cast<const void*>(tubes->tubes.get());
+    } else if (const auto* arrows = std::get_if<ArrowSurface>(&shape)) {
+        key << ' ' << static_cast<const void*>(arrows->arrows.get());
     }
     return key.str();
 }
@@ -142,8 +144,13 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
         m_mesh = tubes->tubes;
         upload(*tubes->tubes, shape_middle(shape));
         request.buffers = {{"core_tubes", m_items.get()}, {"core_nodes", m_nodes.get()}};
+    } else if (const auto* arrows = std::get_if<ArrowSurface>(&shape)) {
+        m_mesh = arrows->arrows;
+        upload(*arrows->arrows, shape_middle(shape));
+        request.buffers = {
+            {"core_arrows", m_items.get()}, {"core_arrow_numbers", m_numbers.get()}, {"core_nodes", m_nodes.get()}};
     }
-    request.bindings = buffer_bindings({.uniform = 2, .storage = 7});
+    request.bindings = buffer_bindings({.uniform = 2, .storage = has_own_values() ? 8u : 7u});
     request.push_constant_bytes = sizeof(HitsParameters);
     m_kernel = std::make_unique<ComposedKernel>(device, request);
 }
@@ -204,6 +211,31 @@ void SurfaceSolver::upload(const TubeSet& tubes, const Vector3& middle) {
     upload_nodes(boxes, middle);
     m_items = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, tubes.pieces.size(), 12);
     m_items->write_reals(0, points);
+}
+
+void SurfaceSolver::upload(const ArrowSet& set, const Vector3& middle) {
+    std::vector<double> numbers, boxes;
+    std::vector<std::uint32_t> elements;
+    for (const ArrowSet::Arrow& arrow : set.arrows) {
+        for (const Vector3& end : {arrow.from, arrow.to}) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                numbers.push_back(end[i] - middle[i]);
+            }
+        }
+        numbers.insert(numbers.end(), {arrow.value, 0});
+        elements.push_back(arrow.number);
+        const std::array<double, 6> bounds = bounds_of(arrow);
+        Box box;
+        std::vector<double> corners;
+        add_point({bounds[0], bounds[1], bounds[2]}, middle, box, corners);
+        add_point({bounds[3], bounds[4], bounds[5]}, middle, box, corners);
+        add_box(box, middle, boxes);
+    }
+    upload_nodes(boxes, middle);
+    m_items = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, set.arrows.size(), 8);
+    m_items->write_reals(0, numbers);
+    m_numbers = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, elements.size(), 1);
+    m_numbers->write_uints(0, elements);
 }
 
 void SurfaceSolver::upload_nodes(std::span<const double> boxes, const Vector3& middle) {

@@ -44,7 +44,13 @@ public:
     /** Number of rows of a quadric without ends (shaders/cut_surface/surface_quadric.glsl); 0 of other shapes. */
     std::uint32_t quadric_rows() const { return m_is_quadric ? m_n_rows : 0; }
 
-    /** Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of cut_surface/surface_hits.comp. */
+    /** What it finds has values and elements of its own, which it writes into samples and marks (SurfaceTraits). */
+    bool has_own_values() const { return m_numbers != nullptr; }
+
+    /**
+     * Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of cut_surface/surface_hits.comp, and 9, the
+     * samples, if has_own_values().
+     */
     void find(const Buffer& frame, std::span<const Buffer* const> buffers, std::span<const std::byte> parameters,
               std::uint32_t tiles_a_row, std::uint32_t tile_rows) const;
 
@@ -52,14 +58,15 @@ private:
     void upload(const TriangleMesh& mesh, const Vector3& middle);
     void upload(const PatchMesh& mesh, const Vector3& middle);
     void upload(const TubeSet& tubes, const Vector3& middle);
+    void upload(const ArrowSet& set, const Vector3& middle);
     void upload_nodes(std::span<const double> boxes, const Vector3& middle);
 
     const Device& m_device;
     Precision m_precision;
     /** Held so that another file's data never have the same address, which solver_key() names. */
     std::shared_ptr<const void> m_mesh;
-    /** Triangles or patches, and the hierarchy over them. */
-    std::unique_ptr<RecordBuffer> m_items, m_nodes;
+    /** Triangles, patches or the like, and the hierarchy over them; of arrows, their elements. */
+    std::unique_ptr<RecordBuffer> m_items, m_nodes, m_numbers;
     std::uint32_t m_hit_rows = surface_tile_height;
     std::uint32_t m_n_rows = 0;
     bool m_is_quadric = false;

@@ -45,4 +45,22 @@ SceneStreamlines read_streamlines(const JsonObject& object) {
     return lines;
 }
 
+SceneArrows read_arrows(const JsonObject& object) {
+    SceneArrows arrows;
+    if (!object.has("vectors")) {
+        object.fail("vectors", "is missing, which arrows need: a vector field");
+    }
+    arrows.vectors = object.text("vectors");
+    if (object.has("on")) {
+        arrows.on = object.text("on");
+    }
+    if (object.has("spacing")) {
+        arrows.spacing = object.number("spacing");
+    }
+    if (object.has("scale")) {
+        arrows.scale = object.number("scale");
+    }
+    return arrows;
+}
+
 } // namespace elvis

@@ -146,6 +146,12 @@ SceneSurface read_surface(const JsonObject& object, const std::string& type, con
         if (object.has("color")) {
             surface.color_map = uniform_color_map(fixed<3>(object.numbers("color")));
         }
+    } else if (type == "arrows") {
+        surface.geometry = ArrowSurface{};
+        surface.arrows = read_arrows(object);
+        if (object.has("color")) {
+            surface.color_map = uniform_color_map(fixed<3>(object.numbers("color")));
+        }
     } else {
         surface.geometry = read_shape(object, type, scene);
     }

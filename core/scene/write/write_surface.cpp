@@ -92,6 +92,9 @@ SceneJson shape_json(const CutShape& shape, const std::string& scene) {
                    },
                    [](const TubeSurface&) {
                        return SceneJson{{"type", "streamlines"}};
+                   },
+                   [](const ArrowSurface&) {
+                       return SceneJson{{"type", "arrows"}};
                    }},
         shape);
 }
@@ -108,6 +111,15 @@ void add_streamlines(SceneJson& json, const SceneStreamlines& lines) {
     set(json, "length", lines.length);
     json["tolerance"] = lines.tolerance;
     set(json, "radius", lines.radius);
+}
+
+void add_arrows(SceneJson& json, const SceneArrows& arrows) {
+    json["vectors"] = arrows.vectors;
+    if (!arrows.on.empty()) {
+        json["on"] = arrows.on;
+    }
+    set(json, "spacing", arrows.spacing);
+    set(json, "scale", arrows.scale);
 }
 
 SceneJson geometry_json(const SurfaceGeometry& geometry, const std::string& scene) {
@@ -158,6 +170,9 @@ SceneJson surface_json(const SceneSurface& surface, const std::string& scene) {
     if (surface.streamlines) {
         add_streamlines(json, *surface.streamlines);
     }
+    if (surface.arrows) {
+        add_arrows(json, *surface.arrows);
+    }
     if (!surface.name.empty()) {
         json["name"] = surface.name;
     }
@@ -168,7 +183,7 @@ SceneJson surface_json(const SceneSurface& surface, const std::string& scene) {
         json["color_field"] = *surface.color_field;
     }
     const std::optional<Rgb> color = only_color(surface.color_map);
-    if (color && (is_wireframe || surface.streamlines || (is_isosurface && !surface.color_field))) {
+    if (color && (is_wireframe || surface.streamlines || surface.arrows || (is_isosurface && !surface.color_field))) {
         json["color"] = *color;
     } else if (surface.color_map) {
         json["color_map"] = color_map_json(*surface.color_map, scene);

@@ -75,6 +75,7 @@ struct HandlesOf {
     Handles operator()(const MeshSurface&) const { return {}; }
     Handles operator()(const BezierSurface&) const { return {}; }
     Handles operator()(const TubeSurface&) const { return {}; }
+    Handles operator()(const ArrowSurface&) const { return {}; }
     Handles operator()(const FaceGeometry&) const { return {}; }
     Handles operator()(const WireFrame&) const { return {}; }
     Handles operator()(const Isosurfaces&) const { return {}; }
@@ -119,6 +120,7 @@ struct MovedHandle {
     void operator()(const MeshSurface&) const {}
     void operator()(const BezierSurface&) const {}
     void operator()(const TubeSurface&) const {}
+    void operator()(const ArrowSurface&) const {}
     void operator()(const FaceGeometry&) const {}
     void operator()(const WireFrame&) const {}
     void operator()(const Isosurfaces&) const {}

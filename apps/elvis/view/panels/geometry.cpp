@@ -316,6 +316,7 @@ bool edit(Ui&, const MeshSurface& surface) { return show_file(surface.mesh->path
 bool edit(Ui&, const BezierSurface& surface) { return show_file(surface.mesh->path); }
 /** What they are about is edited in the scene file. */
 bool edit(Ui&, const TubeSurface&) { return false; }
+bool edit(Ui&, const ArrowSurface&) { return false; }
 
 bool edit(Ui& ui, CutShape& shape) {
     return std::visit([&](auto& kind) { return edit(ui, kind); }, shape);

@@ -1,0 +1,214 @@
+#include <core/arrows/scene_arrows.hpp>
+
+#include <core/arrows/arrow_seeds.hpp>
+#include <core/base/bounds.hpp>
+#include <core/base/counted.hpp>
+#include <core/base/error.hpp>
+#include <core/base/log.hpp>
+#include <core/base/overloaded.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/probe/cpu_evaluator.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/scene/surface_distance.hpp>
+#include <core/scene/threshold.hpp>
+#include <core/scene/write/write_parts.hpp>
+#include <core/streamline/flow.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+namespace elvis {
+
+namespace {
+
+/** More are in no picture. */
+constexpr std::size_t most_known = 32;
+/** Of the diagonal. */
+constexpr double default_spacing = 0.05;
+
+const SceneSurface* surface_under(const SceneArrows& arrows, const Scene& scene) {
+    if (arrows.on.empty()) {
+        return nullptr;
+    }
+    const auto found =
+        std::ranges::find_if(scene.surfaces, [&](const SceneSurface& surface) { return surface.name == arrows.on; });
+    if (found == scene.surfaces.end()) {
+        throw Error("arrows", "there is no surface named '" + arrows.on + "' on which they could stand");
+    }
+    return &*found;
+}
+
+/** All that glyphs rest on. */
+std::string key_of(const SceneSurface& own, const SceneSurface* under, const Scene& scene) {
+    std::string key = std::to_string(scene.time_step) + '\n' + scene.field.value_or("") + '\n' + scene.threshold.value_or("") +
+                      '\n' + surface_json(own, "").dump();
+    return under == nullptr ? key : key + '\n' + surface_json(*under, "").dump();
+}
+
+/** An expression for the field of that text, whose name may be no word of the language. */
+std::shared_ptr<const Expression> scalar_of(const std::string& text, const Scene& scene, const RuntimeVolume& volume) {
+    const auto& fields = volume.fields();
+    const bool is_name = std::ranges::any_of(fields, [&](const FieldInfo& info) { return info.name == text; });
+    return std::make_shared<const Expression>(is_name ? "'" + text + "'" : with_distances(text, scene.surfaces), fields,
+                                              volume.dimension());
+}
+
+class ArrowMaker {
+public:
+    ArrowMaker(const Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds, const TaskControl& control)
+        : m_scene(scene), m_volume(volume), m_bounds(bounds), m_control(control), m_evaluator(volume) {}
+
+    std::shared_ptr<const ArrowSet> make(const SceneSurface& own, const SceneSurface* under) {
+        const SceneArrows& wanted = *own.arrows;
+        const double spacing = wanted.spacing.value_or(default_spacing * diagonal_of(m_bounds));
+        std::vector<ArrowSeed> seeds = seeds_on(under, spacing);
+        const std::size_t n_all = seeds.size();
+        keep_shown(under, seeds);
+        std::vector<Vector3> vectors = vectors_at(wanted.vectors, seeds);
+        double largest = 0;
+        for (const Vector3& vector : vectors) {
+            largest = std::isfinite(length(vector)) ? std::max(largest, length(vector)) : largest;
+        }
+        const double scale = wanted.scale.value_or(largest > 0 ? spacing / largest : 1);
+        auto set = std::make_shared<ArrowSet>();
+        const std::vector<double> values = values_at(own.field ? own.field : m_scene.field, seeds);
+        for (std::size_t i = 0; i < seeds.size(); ++i) {
+            const Vector3 along = scaled(vectors[i], scale), to = plus(seeds[i].position, along);
+            if (std::isfinite(length(along)) && to != seeds[i].position) {
+                std::int64_t number = 0;
+                m_volume.element_numbers(seeds[i].place.element, 1, std::span(&number, 1));
+                set->arrows.push_back({seeds[i].position, to, values[i], static_cast<std::uint32_t>(number)});
+            }
+        }
+        log_line(LogLevel::info, "arrows of {}: {} of {} places; {} stand for a vector of length 1", wanted.vectors,
+                 counted(set->arrows.size(), "arrow"), n_all, scale);
+        return set;
+    }
+
+private:
+    std::vector<ArrowSeed> seeds_on(const SceneSurface* under, double spacing) const {
+        const ArrowSeeds seeds(m_volume, spacing, m_control);
+        if (under == nullptr) {
+            return seeds.in_volume(m_bounds);
+        }
+        const auto refuse = [&]() -> std::vector<ArrowSeed> {
+            throw Error("arrows",
+                        "cannot stand on '" + under->name + "': planes, boundaries and isosurfaces can be under them");
+        };
+        return std::visit(Overloaded{[&](const CutPlane& plane) { return seeds.on_plane(plane, m_bounds); },
+                                     [&](const BoundaryFaces& boundary) { return seeds.on_boundary(boundary); },
+                                     [&](const Isosurfaces& isosurfaces) {
+                                         const std::string first = m_volume.fields().empty() ? "" : m_volume.fields()[0].name;
+                                         const std::string level = under->field.value_or(m_scene.field.value_or(first));
+                                         return seeds.on_isosurfaces(scalar_of(level, m_scene, m_volume), isosurfaces.values,
+                                                                     m_scene.time_step);
+                                     },
+                                     [&](const FlatElements&) { return refuse(); },
+                                     [&](const ElementFaces&) { return refuse(); }, [&](const WireFrame&) { return refuse(); },
+                                     [&](const CutShape&) { return refuse(); }},
+                          under->geometry);
+    }
+
+    /** Those that are neither clipped with the surface nor out of the scene's threshold. */
+    void keep_shown(const SceneSurface* under, std::vector<ArrowSeed>& seeds) {
+        if (under != nullptr) {
+            std::erase_if(seeds, [&](const ArrowSeed& seed) {
+                return std::ranges::any_of(under->clip, [&](const std::array<double, 4>& plane) {
+                    return dot({plane[0], plane[1], plane[2]}, seed.position) + plane[3] < 0;
+                });
+            });
+        }
+        if (!m_scene.threshold) {
+            return;
+        }
+        for (const Condition& condition : threshold_conditions(*m_scene.threshold, m_scene, m_volume)) {
+            const std::vector<double> values = values_of(condition.field, seeds);
+            std::vector<ArrowSeed> kept;
+            for (std::size_t i = 0; i < seeds.size(); ++i) {
+                const double margin = (condition.is_above ? 1 : -1) * (values[i] - condition.value);
+                if (margin > 0 || (condition.takes_equal && margin == 0)) {
+                    kept.push_back(seeds[i]);
+                }
+            }
+            seeds = std::move(kept);
+        }
+    }
+
+    std::vector<Vector3> vectors_at(const std::string& text, const std::vector<ArrowSeed>& seeds) const {
+        const Flow flow(m_volume, text, m_scene.time_step);
+        std::vector<Vector3> vectors;
+        for (const ArrowSeed& seed : seeds) {
+            m_control.check();
+            vectors.push_back(flow.at(seed.place).velocity);
+        }
+        return vectors;
+    }
+
+    std::vector<double> values_at(const std::optional<std::string>& field, const std::vector<ArrowSeed>& seeds) {
+        return values_of(choose_field(m_volume, field ? std::optional(with_distances(*field, m_scene.surfaces)) : field),
+                         seeds);
+    }
+
+    std::vector<double> values_of(const FieldChoice& field, const std::vector<ArrowSeed>& seeds) {
+        std::vector<ReferencePoint> places;
+        std::ranges::transform(seeds, std::back_inserter(places), &ArrowSeed::place);
+        std::vector<double> values;
+        if (field.expression) {
+            for (const ExpressionSample& sample : m_evaluator.evaluate(field.expression, m_scene.time_step, places, false)) {
+                values.push_back(sample.value);
+            }
+            return values;
+        }
+        for (const FieldSample& sample : m_evaluator.evaluate(field.field, m_scene.time_step, places, false)) {
+            double square = 0;
+            for (const double component : sample.values) {
+                square += component * component;
+            }
+            values.push_back(field.component < 0 ? std::sqrt(square)
+                                                 : sample.values[static_cast<std::size_t>(field.component)]);
+        }
+        return values;
+    }
+
+    const Scene& m_scene;
+    const RuntimeVolume& m_volume;
+    const std::array<double, 6>& m_bounds;
+    const TaskControl& m_control;
+    CpuEvaluator m_evaluator;
+};
+
+void need_points(const RuntimeVolume& volume) {
+    if (!volume.has_evaluation() || volume.is_cut()) {
+        throw Error(volume.path(), "the plugin " + volume.plugin().id() +
+                                       " does not evaluate whole elements on the CPU, in which arrows are placed");
+    }
+    if (volume.dimension() == 2) {
+        throw Error(volume.path(), "is two-dimensional: arrows stand in volumes");
+    }
+}
+
+} // namespace
+
+void SceneArrowSets::provide(Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
+                             const TaskControl& control) {
+    for (SceneSurface& surface : scene.surfaces) {
+        if (!surface.arrows || !surface.is_shown) {
+            continue;
+        }
+        const SceneSurface* const under = surface_under(*surface.arrows, scene);
+        const std::string key = key_of(surface, under, scene);
+        auto known = m_known.find(key);
+        if (known == m_known.end()) {
+            need_points(volume);
+            if (m_known.size() >= most_known) {
+                m_known.clear();
+            }
+            known = m_known.emplace(key, ArrowMaker(scene, volume, bounds, control).make(surface, under)).first;
+        }
+        surface.geometry = ArrowSurface{known->second};
+        surface.is_shown = !known->second->arrows.empty();
+    }
+}
+
+} // namespace elvis
