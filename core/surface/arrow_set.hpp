@@ -22,7 +22,7 @@ struct ArrowSet {
     };
 
     /** Shares of an arrow's length. */
-    static constexpr double shaft_radius = 0.03, head_radius = 0.1, head_length = 0.3;
+    static constexpr double shaft_radius = 0.05, head_radius = 0.14, head_length = 0.35;
 
     std::vector<Arrow> arrows;
 
