@@ -27,6 +27,7 @@ void add_help(CLI::App& app);
 void add_info(CLI::App& app);
 void add_integrate(CLI::App& app);
 void add_streamlines(CLI::App& app);
+void add_pathlines(CLI::App& app);
 void add_manual(CLI::App& app);
 void add_new_plugin(CLI::App& app);
 void add_plugins(CLI::App& app);

@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
     elvis::commands::add_info(app);
     elvis::commands::add_integrate(app);
     elvis::commands::add_streamlines(app);
+    elvis::commands::add_pathlines(app);
     elvis::commands::add_manual(app);
     elvis::commands::add_new_plugin(app);
     elvis::commands::add_plugins(app);

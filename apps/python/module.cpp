@@ -282,6 +282,7 @@ public:
     /** Of each line begin, end, and dictionaries' arrays of its points: what elvis_data_trace finds. */
     py::dict trace(const std::string& field, const Doubles& seeds, std::uint32_t direction,
                    const std::vector<std::string>& fields, double tolerance, double length, std::uint32_t time_step,
+                   bool is_unsteady, bool is_linear, std::optional<double> start_time, std::optional<double> end_time,
                    const py::object& progress) const {
         if (seeds.ndim() != 2 || seeds.shape(1) != 3) {
             throw error(ELVIS_ERROR_INVALID_ARGUMENT, "seeds: an array of the shape (n, 3) is wanted");
@@ -300,6 +301,11 @@ public:
         wanted.fields = names.data();
         wanted.tolerance = tolerance;
         wanted.length = length;
+        wanted.flags = (is_unsteady ? ELVIS_TRACE_PATHLINES : 0u) | (start_time ? ELVIS_TRACE_START_TIME : 0u) |
+                       (end_time ? ELVIS_TRACE_END_TIME : 0u);
+        wanted.interpolation = is_linear ? ELVIS_TIME_LINEAR : ELVIS_TIME_CUBIC;
+        wanted.start_time = start_time.value_or(0);
+        wanted.end_time = end_time.value_or(0);
         traced found;
         run(progress, [&](const task& watch) { found = m_data.trace(wanted, watch); });
         const auto n = static_cast<py::ssize_t>(found.times.size());
@@ -514,6 +520,10 @@ PYBIND11_MODULE(_elvis, module) {
             [](const Picture& picture, const std::string& path, std::uint32_t bits) { picture.get().write_png(path, bits); },
             py::arg("path"), py::arg("bits"))
         .def(
+            "write_svg",
+            [](const Picture& picture, const std::string& path, std::uint32_t bits) { picture.get().write_svg(path, bits); },
+            py::arg("path"), py::arg("bits"))
+        .def(
             "write_buffers", [](const Picture& picture, const std::string& path) { picture.get().write_buffers(path); },
             py::arg("path"))
         .def_property_readonly("width", [](const Picture& picture) { return picture.info().width; })
@@ -531,7 +541,8 @@ PYBIND11_MODULE(_elvis, module) {
              py::arg("isovalue"), py::arg("contour_field"), py::arg("contours"), py::arg("fields"), py::arg("tolerance"),
              py::arg("time_step"), py::arg("progress"))
         .def("trace", &Volume::trace, py::arg("field"), py::arg("seeds"), py::arg("direction"), py::arg("fields"),
-             py::arg("tolerance"), py::arg("length"), py::arg("time_step"), py::arg("progress"))
+             py::arg("tolerance"), py::arg("length"), py::arg("time_step"), py::arg("is_unsteady"), py::arg("is_linear"),
+             py::arg("start_time"), py::arg("end_time"), py::arg("progress"))
         .def("walk_line", &Volume::walk_line, py::arg("start"), py::arg("end"), py::arg("fields"), py::arg("time_step"),
              py::arg("progress"))
         .def("update_field", &Volume::update_field, py::arg("field"), py::arg("time_step"), py::arg("element_class"),

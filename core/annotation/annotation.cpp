@@ -206,11 +206,15 @@ AnnotationPlan plan_annotation(std::uint32_t width, std::uint32_t height, const 
     return plan;
 }
 
-std::vector<std::string> annotate(Frame& frame, const AnnotationRequest& request) {
-    const AnnotationPlan plan = plan_annotation(frame.width, frame.height, request);
+void paint(Frame& frame, const AnnotationPlan& plan) {
     for (const AnnotationPlan::Item& item : plan.items) {
         item.drawing.paint(frame, item.ink, plan.halo_radius);
     }
+}
+
+std::vector<std::string> annotate(Frame& frame, const AnnotationRequest& request) {
+    const AnnotationPlan plan = plan_annotation(frame.width, frame.height, request);
+    paint(frame, plan);
     return plan.left_out;
 }
 

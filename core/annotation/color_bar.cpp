@@ -12,6 +12,8 @@ namespace {
 Mask rectangle(int left, int top, int right, int bottom) {
     Mask mask = empty_mask({left, top, right, bottom});
     std::fill(mask.coverage.begin(), mask.coverage.end(), 1.0f);
+    const double width = mask.box.width(), height = mask.box.height();
+    mask.polygon = {{0, 0}, {width, 0}, {width, height}, {0, height}};
     return mask;
 }
 

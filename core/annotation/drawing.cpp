@@ -97,24 +97,31 @@ void Drawing::move(int right, int down) {
     }
 }
 
-void Drawing::paint(Frame& frame, const std::optional<Color>& ink, double halo_radius) const {
+Drawing::Colors Drawing::colors_on(const Frame& frame, const std::optional<Color>& ink, double halo_radius) const {
     const Backdrop behind = backdrop(frame, grown(m_box, static_cast<int>(std::ceil(halo_radius))));
-    const Color own = ink.value_or(behind.mean > 0.5 ? Color{0, 0, 0, 1} : Color{1, 1, 1, 1});
-    const bool is_dark = brightness(own) < 0.5;
+    Colors colors{ink.value_or(behind.mean > 0.5 ? Color{0, 0, 0, 1} : Color{1, 1, 1, 1}), std::nullopt};
+    const bool is_dark = brightness(colors.ink) < 0.5;
     // A pixel here and there does no harm.
-    constexpr double harmless = 0.005;
+    constexpr double harmless = 0.005, opacity = 0.8;
     if ((is_dark ? behind.near_black : behind.near_white) > harmless) {
+        colors.halo = is_dark ? Color{1, 1, 1, opacity} : Color{0, 0, 0, opacity};
+    }
+    return colors;
+}
+
+void Drawing::paint(Frame& frame, const std::optional<Color>& ink, double halo_radius) const {
+    const Colors colors = colors_on(frame, ink, halo_radius);
+    if (colors.halo) {
         Mask halo = empty_mask(grown(m_box, static_cast<int>(std::ceil(halo_radius))));
         for (const Shape& shape : m_shapes) {
             if (shape.has_halo) {
                 unite(halo, grown_mask(shape.mask, halo_radius));
             }
         }
-        constexpr double opacity = 0.8;
-        blend(frame, halo, is_dark ? Color{1, 1, 1, opacity} : Color{0, 0, 0, opacity});
+        blend(frame, halo, *colors.halo);
     }
     for (const Shape& shape : m_shapes) {
-        blend(frame, shape.mask, shape.color.value_or(own));
+        blend(frame, shape.mask, shape.color.value_or(colors.ink));
     }
 }
 

@@ -28,6 +28,23 @@ public:
 
     void move(int right, int down);
 
+    struct Shape {
+        Mask mask;
+        /** Of its own; else it has the ink's. */
+        std::optional<Color> color;
+        bool has_halo = false;
+    };
+    /** In the order in which they are painted. */
+    const std::vector<Shape>& shapes() const { return m_shapes; }
+
+    struct Colors {
+        Color ink{};
+        /** Below all that has a halo. */
+        std::optional<Color> halo;
+    };
+    /** What paint() paints with on this picture. */
+    Colors colors_on(const Frame& frame, const std::optional<Color>& ink, double halo_radius) const;
+
     /**
      * Blends the shapes over the picture in the order in which they were added. Without `ink` it is black or white, whichever
      * stands out more against what is under the box; where a part of that is too near to the ink, ink gets a halo of
@@ -36,11 +53,6 @@ public:
     void paint(Frame& frame, const std::optional<Color>& ink, double halo_radius) const;
 
 private:
-    struct Shape {
-        Mask mask;
-        std::optional<Color> color;
-        bool has_halo = false;
-    };
     std::vector<Shape> m_shapes;
     PixelBox m_box;
 };

@@ -138,7 +138,7 @@ Mask Font::text(const std::string& text, double size, bool is_upwards) const {
     const FT_Int32 flags = FT_LOAD_NO_BITMAP | (is_upwards ? FT_LOAD_NO_HINTING : FT_LOAD_TARGET_LIGHT);
     std::vector<Mask> masks;
     PixelBox box;
-    m_impl->walk(text, flags, [&](double x) {
+    const double advance = m_impl->walk(text, flags, [&](double x) {
         FT_Glyph raw = nullptr;
         if (FT_Get_Glyph(m_impl->face->glyph, &raw) != 0) {
             return;
@@ -161,6 +161,9 @@ Mask Font::text(const std::string& text, double size, bool is_upwards) const {
     for (const Mask& mask : masks) {
         unite(line, mask);
     }
+    const char* const family = m_impl->face->family_name;
+    line.text = std::make_shared<const TextLine>(
+        TextLine{text, family != nullptr ? family : "", size, advance, is_upwards, {-double(box.left), -double(box.top)}});
     return line;
 }
 

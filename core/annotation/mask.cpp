@@ -58,7 +58,7 @@ PixelBox grown(const PixelBox& box, int by) { return {box.left - by, box.top - b
 
 Mask empty_mask(const PixelBox& box) {
     const std::size_t n = box.is_empty() ? 0 : static_cast<std::size_t>(box.width()) * static_cast<std::size_t>(box.height());
-    return {box, std::vector<float>(n)};
+    return {box, std::vector<float>(n), {}, {}};
 }
 
 void unite(Mask& onto, const Mask& other) {
@@ -87,6 +87,9 @@ Mask polygon_mask(std::span<const Point2> points) {
                             static_cast<int>(std::ceil(most[0])), static_cast<int>(std::ceil(most[1]))});
     if (mask.box.is_empty()) {
         return {};
+    }
+    for (const Point2& point : points) {
+        mask.polygon.push_back({point[0] - mask.box.left, point[1] - mask.box.top});
     }
     const auto width = static_cast<std::size_t>(mask.box.width());
     // An edge on the right side of the box writes two entries further.

@@ -5,7 +5,9 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace elvis {
@@ -35,10 +37,25 @@ PixelBox moved(const PixelBox& box, int right, int down);
 /** On each side. */
 PixelBox grown(const PixelBox& box, int by);
 
-/** Coverage of the pixels of a box, from 0 to 1, top row first. */
+/** One line of text. */
+struct TextLine {
+    std::string text, family;
+    /** Of the em, and how far the text advances, in pixels. */
+    double size = 0, advance = 0;
+    /** Turned by 90 degrees against the clock. */
+    bool is_upwards = false;
+    /** Where the baseline begins, from the upper left corner of the mask's box. */
+    Point2 baseline{};
+};
+
+/** Coverage of the pixels of a box, from 0 to 1, top row first; and what it is of, for files that hold shapes. */
 struct Mask {
     PixelBox box;
     std::vector<float> coverage;
+    /** From the upper left corner of the box; empty for text. */
+    std::vector<Point2> polygon{};
+    /** Null for polygons. */
+    std::shared_ptr<const TextLine> text{};
 };
 
 Mask empty_mask(const PixelBox& box);

@@ -30,4 +30,6 @@ struct AnnotationPlan {
 /** For a picture of that size. Throws as annotate() does. */
 AnnotationPlan plan_annotation(std::uint32_t width, std::uint32_t height, const AnnotationRequest& request);
 
+void paint(Frame& frame, const AnnotationPlan& plan);
+
 } // namespace elvis

@@ -34,4 +34,17 @@ std::u32string decode_utf8(std::string_view text) {
     return characters;
 }
 
+std::string encode_utf8(std::u32string_view text) {
+    std::string bytes;
+    for (const char32_t character : text) {
+        const int n_more = character < 0x80 ? 0 : character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
+        constexpr unsigned char first[] = {0x00, 0xC0, 0xE0, 0xF0};
+        bytes += static_cast<char>(first[n_more] | character >> (6 * n_more));
+        for (int i = n_more - 1; i >= 0; --i) {
+            bytes += static_cast<char>(0x80 | (character >> (6 * i) & 0x3Fu));
+        }
+    }
+    return bytes;
+}
+
 } // namespace elvis

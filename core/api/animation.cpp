@@ -29,6 +29,7 @@ elvis_result elvis_animation_create(elvis_data* data, const elvis_scene* scene, 
         if (!scene->state.scene.animation) {
             throw InvalidArgument("scene", "has no animation");
         }
+        need_one_volume(scene->state.scene, "an animation");
         const std::shared_ptr<Data> state = shown_data(data->state, scene->state.scene, nullptr);
         const DataTask running(*state, nullptr);
         Scene shown = scene_for(*state, scene->state.scene);

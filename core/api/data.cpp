@@ -137,8 +137,10 @@ elvis_range range_of(const RuntimeVolume& volume, const FieldExtrema& found) {
     return range;
 }
 
-elvis_data* open_files(const std::shared_ptr<Context>& context, const std::vector<std::string>& paths,
-                       const std::string& plugin, const std::string& options, const elvis_task* task) {
+} // namespace
+
+std::shared_ptr<Data> open_data(const std::shared_ptr<Context>& context, const std::vector<std::string>& paths,
+                                const std::string& plugin, const std::string& options, const elvis_task* task) {
     auto control = std::make_unique<TaskControl>();
     follow(*control, task);
     control->check();
@@ -151,10 +153,8 @@ elvis_data* open_files(const std::shared_ptr<Context>& context, const std::vecto
     if (file.plugin->id() == native_plugin_id) {
         state->source = [file] { return native_source(file.path); };
     }
-    return new elvis_data{std::move(state)};
+    return state;
 }
-
-} // namespace
 
 } // namespace elvis::library
 
@@ -167,7 +167,7 @@ elvis_result elvis_data_open(elvis_context* context, elvis_string path, elvis_st
         need(data, "data");
         *data = nullptr;
         need(path, "path");
-        *data = open_files(context->state, {path}, text_or_empty(plugin), text_or_empty(options), task);
+        *data = new elvis_data{open_data(context->state, {path}, text_or_empty(plugin), text_or_empty(options), task)};
     });
 }
 
@@ -180,7 +180,7 @@ elvis_result elvis_data_open_files(elvis_context* context, const elvis_string* p
         if (files.empty()) {
             throw InvalidArgument("paths", "there are none");
         }
-        *data = open_files(context->state, files, text_or_empty(plugin), text_or_empty(options), task);
+        *data = new elvis_data{open_data(context->state, files, text_or_empty(plugin), text_or_empty(options), task)};
     });
 }
 
@@ -194,7 +194,7 @@ elvis_result elvis_scene_open_volume(const elvis_scene* scene, const elvis_task*
         }
         std::vector<std::string> files{said.volume};
         files.insert(files.end(), said.more_files.begin(), said.more_files.end());
-        *data = open_files(scene->state.context, files, said.plugin, said.plugin_options, task);
+        *data = new elvis_data{open_data(scene->state.context, files, said.plugin, said.plugin_options, task)};
     });
 }
 

@@ -19,6 +19,12 @@ Scene scene_for(const Data& data, Scene scene);
  */
 std::shared_ptr<Data> shown_data(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_task* task);
 
+/** Throws Error if the scene has several volumes; `what` begins the sentence. */
+void need_one_volume(const Scene& scene, const char* what);
+/** The picture of a scene with several volumes, of which the data are the first. */
+elvis_picture* draw_volumes(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_render_options& options,
+                            const elvis_task* task);
+
 /** Gives a scene's streamlines their tubes, and its arrows their glyphs; while the data's mutex is held. */
 void provide_glyphs(Data& data, Scene& scene);
 

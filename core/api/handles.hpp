@@ -29,6 +29,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -102,6 +103,8 @@ struct Data {
     ExtremaFinder extrema;
     StreamlineTubes streamlines;
     SceneArrowSets arrow_sets;
+    /** Of scenes with several volumes: the other ones, by what opens them. */
+    std::map<std::string, std::shared_ptr<Data>> beside;
 
 private:
     /** The volume on another device. A volume takes one call at a time: each device has its own. */
@@ -125,6 +128,10 @@ private:
     Precision m_precision = Precision::float32;
     std::optional<std::array<double, 6>> m_bounds;
 };
+
+/** What files hold. */
+std::shared_ptr<Data> open_data(const std::shared_ptr<Context>& context, const std::vector<std::string>& paths,
+                                const std::string& plugin, const std::string& options, const elvis_task* task);
 
 /** A scene: the document, what it says, and the file beside which it is. */
 struct SceneState {

@@ -65,6 +65,7 @@ elvis_result elvis_data_pick(elvis_data* data, const elvis_scene* scene, double 
         if (!std::isfinite(column) || !std::isfinite(row)) {
             throw InvalidArgument("column, row", "are no finite numbers");
         }
+        need_one_volume(scene->state.scene, "picking");
         const std::shared_ptr<Data> with = shown_data(data->state, scene->state.scene, task);
         Data& state = *with;
         Scene shown = scene_for(state, scene->state.scene);

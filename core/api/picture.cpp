@@ -3,6 +3,7 @@
 
 #include <core/scene/output/buffers_file.hpp>
 #include <core/scene/output/png_file.hpp>
+#include <core/session/svg_picture.hpp>
 
 namespace elvis::library {
 
@@ -30,6 +31,13 @@ const StillPicture& still_of(const elvis_picture& picture) {
         throw InvalidArgument("picture", "was drawn for a screen: its colours can be read, in 8 bits");
     }
     return *still;
+}
+
+int bits_of(std::uint32_t bits) {
+    if (bits != 8 && bits != 16) {
+        throw InvalidArgument("bits", "is neither 8 nor 16");
+    }
+    return static_cast<int>(bits);
 }
 
 } // namespace
@@ -111,10 +119,14 @@ elvis_result elvis_picture_read(const elvis_picture* picture, elvis_channel chan
 elvis_result elvis_picture_write_png(const elvis_picture* picture, elvis_string path, uint32_t bits) {
     return call(picture, [&] {
         need(path, "path");
-        if (bits != 8 && bits != 16) {
-            throw InvalidArgument("bits", "is neither 8 nor 16");
-        }
-        write_png(still_of(*picture).frame, path, static_cast<int>(bits));
+        write_png(still_of(*picture).frame, path, bits_of(bits));
+    });
+}
+
+elvis_result elvis_picture_write_svg(const elvis_picture* picture, elvis_string path, uint32_t bits) {
+    return call(picture, [&] {
+        need(path, "path");
+        write_svg_picture(still_of(*picture), path, bits_of(bits));
     });
 }
 

@@ -49,6 +49,12 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         *picture = nullptr;
         need(scene, "scene");
         const elvis_render_options known = known_or_zero(options);
+        if (!scene->state.scene.volumes.empty()) {
+            Scene several = scene->state.scene;
+            resize(several, known);
+            *picture = draw_volumes(data->state, several, known, task);
+            return;
+        }
         const std::shared_ptr<Data> shown = shown_data(data->state, scene->state.scene, task);
         Data& state = *shown;
         Scene still = scene_for(state, scene->state.scene);
@@ -70,6 +76,7 @@ elvis_result elvis_render_for_screen(elvis_data* data, const elvis_scene* scene,
         *picture = nullptr;
         need(scene, "scene");
         const ScreenOptions how = screen_options(known_or_zero(options));
+        need_one_volume(scene->state.scene, "a picture for a screen");
         const std::shared_ptr<Data> shown = shown_data(data->state, scene->state.scene, task);
         Data& state = *shown;
         Scene said = scene_for(state, scene->state.scene);

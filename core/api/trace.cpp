@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace elvis::library {
 
@@ -37,12 +38,59 @@ TraceOptions options_of(const elvis_tracing& tracing) {
     return options;
 }
 
-/** Elements' numbers and the columns' values at the points of all lines. */
-void look_up(const RuntimeVolume& volume, const Columns& columns, std::uint32_t time_step, Lines& lines) {
+PathlineOptions pathline_options_of(const elvis_tracing& tracing) {
+    if (tracing.interpolation > ELVIS_TIME_LINEAR) {
+        throw InvalidArgument("interpolation", "is neither ELVIS_TIME_CUBIC nor ELVIS_TIME_LINEAR");
+    }
+    PathlineOptions options;
+    options.interpolation = static_cast<TimeInterpolation>(tracing.interpolation);
+    if ((tracing.flags & ELVIS_TRACE_START_TIME) != 0) {
+        options.start = tracing.start_time;
+    }
+    if ((tracing.flags & ELVIS_TRACE_END_TIME) != 0) {
+        options.end = tracing.end_time;
+    }
+    return options;
+}
+
+/** At the points' own times, between time steps as the flow is interpolated. */
+std::vector<std::vector<double>> values_in_time(const RuntimeVolume& volume, const Columns& columns, const TimeCourse& course,
+                                                const std::vector<ReferencePoint>& points, const std::vector<double>& times) {
+    std::vector<std::vector<double>> values(points.size(), std::vector<double>(columns.n_values, 0.0));
+    std::vector<TimeWeights> weights;
+    for (const double time : times) {
+        weights.push_back(course.at(time));
+    }
+    for (std::uint32_t step = 0; step < volume.times().size(); ++step) {
+        std::vector<std::pair<std::size_t, double>> parts;
+        std::vector<ReferencePoint> asked;
+        for (std::size_t point = 0; point < points.size(); ++point) {
+            for (std::size_t i = 0; i < weights[point].count; ++i) {
+                if (weights[point].steps[i] == step && weights[point].weights[i] != 0) {
+                    parts.emplace_back(point, weights[point].weights[i]);
+                    asked.push_back(points[point]);
+                }
+            }
+        }
+        const std::vector<std::vector<double>> found = values_at(volume, columns, step, asked);
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            for (std::size_t i = 0; i < columns.n_values; ++i) {
+                values[parts[part].first][i] += parts[part].second * found[part][i];
+            }
+        }
+    }
+    return values;
+}
+
+/** Elements' numbers and the columns' values at the points of all lines. `course`: of pathlines. */
+void look_up(const RuntimeVolume& volume, const Columns& columns, std::uint32_t time_step, const TimeCourse* course,
+             Lines& lines) {
+    std::vector<double> times;
     std::vector<ReferencePoint> points;
     for (const Streamline& line : lines.lines) {
         for (const TracePoint& point : line.points) {
             points.push_back(point.at);
+            times.push_back(point.time);
         }
     }
     std::vector<std::int64_t> numbers(volume.n_elements());
@@ -51,7 +99,9 @@ void look_up(const RuntimeVolume& volume, const Columns& columns, std::uint32_t 
         lines.elements.push_back(numbers[point.element]);
     }
     lines.n_values = columns.n_values;
-    for (const std::vector<double>& values : values_at(volume, columns, time_step, points)) {
+    const std::vector<std::vector<double>> found = course != nullptr ? values_in_time(volume, columns, *course, points, times)
+                                                                     : values_at(volume, columns, time_step, points);
+    for (const std::vector<double>& values : found) {
         lines.values.insert(lines.values.end(), values.begin(), values.end());
     }
 }
@@ -109,11 +159,16 @@ elvis_result elvis_data_trace(elvis_data* data, const elvis_tracing* tracing, co
         const TraceOptions options = options_of(known);
         const DataTask running(state, task);
         const Columns columns = columns_of(state.volume, known.fields, known.n_fields);
-        const Flow flow(state.volume, known.field, known.time_step);
+        const bool is_steady = (known.flags & ELVIS_TRACE_PATHLINES) == 0;
+        FlowTimes times;
+        if (!is_steady) {
+            times = pathline_times(state.volume, options.direction, pathline_options_of(known));
+        }
+        const Flow flow = is_steady ? Flow(state.volume, known.field, known.time_step) : Flow(state.volume, known.field, times);
         auto found = std::make_unique<elvis_lines>();
         found->state.context = state.context;
         found->state.lines = trace(flow, seeds, options, *state.control);
-        look_up(state.volume, columns, known.time_step, found->state);
+        look_up(state.volume, columns, known.time_step, times.course.get(), found->state);
         *lines = found.release();
     });
 }
@@ -124,6 +179,10 @@ elvis_result elvis_lines_get_info(const elvis_lines* lines, elvis_lines_info* in
         ours.n_lines = lines->state.lines.size();
         ours.n_points = lines->state.elements.size();
         ours.n_values = lines->state.n_values;
+        ours.time_doubt = -1;
+        for (const Streamline& line : lines->state.lines) {
+            ours.time_doubt = std::max(ours.time_doubt, line.time_doubt);
+        }
         give(ours, info, "info");
     });
 }

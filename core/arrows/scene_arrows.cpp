@@ -140,7 +140,7 @@ private:
         std::vector<Vector3> vectors;
         for (const ArrowSeed& seed : seeds) {
             m_control.check();
-            vectors.push_back(flow.at(seed.place).velocity);
+            vectors.push_back(flow.at(seed.place, 0).velocity);
         }
         return vectors;
     }

@@ -312,11 +312,14 @@ PartsPicture VolumeInParts::draw(const Scene& scene) {
 }
 
 void need_parts_can_draw(const Scene& scene) {
+    if (!scene.volumes.empty()) {
+        refuse(scene, "several volumes");
+    }
     if (scene.samples > 1) {
         refuse(scene, "several samples a pixel");
     }
     if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.streamlines.has_value(); })) {
-        refuse(scene, "streamlines");
+        refuse(scene, "streamlines and pathlines");
     }
     if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.arrows.has_value(); })) {
         refuse(scene, "arrows");

@@ -60,6 +60,30 @@ void read_volume(const JsonObject& volume, const std::string& path, Scene& scene
     }
 }
 
+SceneVolume read_further_volume(const JsonObject& object, const std::string& path) {
+    SceneVolume volume;
+    if (object.has("path")) {
+        Scene files;
+        read_volume(object, path, files);
+        volume = {files.volume, files.more_files, files.plugin, files.plugin_options};
+    }
+    for (const char* const key : {"more_paths", "plugin", "options"}) {
+        if (object.has(key) && volume.path.empty()) {
+            object.fail(key, "goes with 'path', which is missing");
+        }
+    }
+    if (object.has("time_step")) {
+        volume.time_step = object.integer("time_step");
+    }
+    if (object.has("offset")) {
+        volume.offset = fixed<3>(object.numbers("offset"));
+    }
+    if (object.has("field")) {
+        volume.field = object.text("field");
+    }
+    return volume;
+}
+
 SceneWarp read_warp(const JsonObject& object) {
     SceneWarp warp;
     if (!object.has("field")) {
@@ -123,6 +147,11 @@ Scene scene_of(const nlohmann::json& document, const std::string& path) {
     Scene scene;
     if (root.has("volume")) {
         read_volume(root.object("volume"), path, scene);
+    }
+    if (root.has("volumes")) {
+        for (const JsonObject& volume : root.objects("volumes")) {
+            scene.volumes.push_back(read_further_volume(volume, path));
+        }
     }
     if (root.has("warp")) {
         scene.warp = read_warp(root.object("warp"));

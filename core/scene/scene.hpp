@@ -74,7 +74,15 @@ struct SceneContours {
     bool has_map_color = false;
 };
 
-/** Curves that are everywhere tangent to a vector field. */
+/** Of pathlines: points that move with a field through its time steps. */
+struct ScenePathTimes {
+    /** When points are at their seeds, and till when, or backward since when, they are followed. */
+    std::optional<double> start{}, end{};
+    /** Between time steps; else cubic. */
+    bool is_linear = false;
+};
+
+/** Curves that are everywhere tangent to a vector field at the scene's time step; or pathlines. */
 struct SceneStreamlines {
     enum class Direction { both, forward, backward };
 
@@ -85,12 +93,14 @@ struct SceneStreamlines {
     /** Points of the grid along the longest side of the bounds. */
     std::uint32_t seed_grid = 5;
     Direction direction = Direction::both;
-    /** Of each line, in each direction; by default ten times the diagonal of the bounds. */
+    /** Of each line, in each direction; by default ten times the diagonal of the bounds, of pathlines without limit. */
     std::optional<double> length{};
     /** Of a step's error, as a share of the diagonal of the bounds. */
     double tolerance = 1e-9;
     /** Of the tubes; by default a part of the diagonal. */
     std::optional<double> radius{};
+    /** They are pathlines. */
+    std::optional<ScenePathTimes> times{};
 };
 
 /** Arrows of a vector field, from evenly spaced points on; their colours are those of the surface's field there. */
@@ -178,6 +188,22 @@ struct SceneWarp {
     friend bool operator==(const SceneWarp&, const SceneWarp&) = default;
 };
 
+/** A volume beside the scene's own. It shows what that shows, each in its own coordinates. */
+struct SceneVolume {
+    /** Empty: the scene's own files. */
+    std::string path{};
+    std::vector<std::string> more_files{};
+    std::string plugin{};
+    /** JSON text, or empty. */
+    std::string plugin_options{};
+    /** If absent, 0; of the scene's own files the scene's. */
+    std::optional<std::uint32_t> time_step{};
+    /** By which it is moved. */
+    Vector3 offset{};
+    /** The scene's if absent. */
+    std::optional<std::string> field{};
+};
+
 struct Scene {
     std::string volume;
     /** Further files of the same foreign data set. */
@@ -186,6 +212,8 @@ struct Scene {
     /** JSON text, or empty. */
     std::string plugin_options;
     std::uint32_t time_step = 0;
+    /** Further ones in the same picture. */
+    std::vector<SceneVolume> volumes;
     std::optional<SceneWarp> warp;
     std::optional<std::string> field;
     /** Which part of the volume is shown (threshold.hpp). */

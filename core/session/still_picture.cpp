@@ -45,12 +45,18 @@ StillPicture draw_request(const Scene& scene, FrameRequest request, const Runtim
     return still;
 }
 
+void annotate_still(const AnnotationRequest& annotation, StillPicture& still) {
+    still.annotation = plan_annotation(still.frame.width, still.frame.height, annotation);
+    still.covered = covered_by(still.annotation, still.frame);
+    paint(still.frame, still.annotation);
+    for (const std::string& name : still.annotation.left_out) {
+        still.remarks.push_back({true, "annotation: there is no room for the " + name});
+    }
+}
+
 void finish_still(const Scene& scene, const RuntimeVolume& volume, StillPicture& still) {
     if (scene.annotation) {
-        const AnnotationRequest annotation = make_annotation_request(*scene.annotation, still.request, still.frame, volume);
-        for (const std::string& name : annotate(still.frame, annotation)) {
-            still.remarks.push_back({true, "annotation: there is no room for the " + name});
-        }
+        annotate_still(make_annotation_request(*scene.annotation, still.request, still.frame, volume), still);
     }
     for (FrameRemark& remark : remarks_on(still.frame.counts)) {
         still.remarks.push_back(std::move(remark));

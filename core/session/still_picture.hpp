@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/annotation/svg.hpp>
 #include <core/base/cancel.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/renderer.hpp>
@@ -27,6 +28,9 @@ struct StillPicture {
     /** With what is written on the picture in its colours. */
     Frame frame;
     std::vector<FrameRemark> remarks;
+    /** What is written on the picture, and the colours below it. */
+    AnnotationPlan annotation;
+    std::vector<CoveredPart> covered;
 };
 
 /** The scene's picture; its animation is not looked at. Throws Error where the scene does not suit the volume, or Cancelled. */
@@ -39,6 +43,9 @@ StillPicture draw_request(const Scene& scene, FrameRequest request, const Runtim
 
 /** Writes what the scene wants on a picture that is drawn, and adds remarks on its frame. */
 void finish_still(const Scene& scene, const RuntimeVolume& volume, StillPicture& still);
+
+/** Writes that on a picture that is drawn. */
+void annotate_still(const AnnotationRequest& annotation, StillPicture& still);
 
 /** What people should know of a request: what its makers say, and the density that people did not choose. */
 std::vector<FrameRemark> remarks_on(const Scene& scene, const FrameRequest& request);

@@ -40,8 +40,8 @@ std::vector<Vector3> grid_seeds(const std::array<double, 6>& bounds, std::uint32
 }
 
 std::string key_of(const SceneStreamlines& lines, std::uint32_t time_step) {
-    std::string key = lines.flow + '\n' + std::to_string(time_step) + ' ' + std::to_string(lines.seed_grid) + ' ' +
-                      std::to_string(static_cast<int>(lines.direction));
+    std::string key = lines.flow + '\n' + (lines.times ? "pathlines" : std::to_string(time_step)) + ' ' +
+                      std::to_string(lines.seed_grid) + ' ' + std::to_string(static_cast<int>(lines.direction));
     const auto add = [&key](double number) {
         key += ' ';
         key.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -49,13 +49,19 @@ std::string key_of(const SceneStreamlines& lines, std::uint32_t time_step) {
     add(lines.length.value_or(0));
     add(lines.tolerance);
     add(lines.radius.value_or(0));
+    if (lines.times) {
+        // What is not said differs from every number.
+        add(lines.times->start.value_or(std::nan("")));
+        add(lines.times->end.value_or(std::nan("")));
+        add(lines.times->is_linear ? 1 : 0);
+    }
     for (const Vector3& seed : lines.seeds) {
         std::ranges::for_each(seed, add);
     }
     return key;
 }
 
-void say_ends(const std::string& flow, const std::vector<Streamline>& lines) {
+void say_ends(const char* kind, const std::string& flow, const std::vector<Streamline>& lines) {
     std::size_t n_outside = 0, n_jumps = 0, n_cut_short = 0;
     for (const Streamline& line : lines) {
         n_outside += line.begin == TraceEnd::no_element ? 1 : 0;
@@ -66,22 +72,31 @@ void say_ends(const std::string& flow, const std::vector<Streamline>& lines) {
     }
     const LogLevel level = n_jumps + n_cut_short > 0 ? LogLevel::warning : LogLevel::info;
     log_line(level,
-             "streamlines of {}: {}, {} of them with seeds outside of the volume; {} between elements where the field jumps "
+             "{} of {}: {}, {} of them with seeds outside of the volume; {} between elements where the field jumps "
              "back, {} by the number of steps",
-             flow, counted(lines.size(), "line"), n_outside, counted(n_jumps, "end"), counted(n_cut_short, "end"));
+             kind, flow, counted(lines.size(), "line"), n_outside, counted(n_jumps, "end"), counted(n_cut_short, "end"));
+}
+
+Flow flow_of(const SceneStreamlines& wanted, const RuntimeVolume& volume, std::uint32_t time_step) {
+    if (!wanted.times) {
+        return {volume, wanted.flow, time_step};
+    }
+    const PathlineOptions options{wanted.times->is_linear ? TimeInterpolation::linear : TimeInterpolation::cubic,
+                                  wanted.times->start, wanted.times->end};
+    return {volume, wanted.flow, pathline_times(volume, static_cast<TraceDirection>(wanted.direction), options)};
 }
 
 std::shared_ptr<const TubeSet> tubes_of(const SceneStreamlines& wanted, const RuntimeVolume& volume, std::uint32_t time_step,
                                         const std::array<double, 6>& bounds, const TaskControl& control) {
     need_evaluation(volume);
-    const Flow flow(volume, wanted.flow, time_step);
     TraceOptions options;
     options.direction = static_cast<TraceDirection>(wanted.direction);
+    const Flow flow = flow_of(wanted, volume, time_step);
     options.tolerance = wanted.tolerance;
     options.most_length = wanted.length.value_or(0);
     const std::vector<Streamline> lines =
         trace(flow, wanted.seeds.empty() ? grid_seeds(bounds, wanted.seed_grid) : wanted.seeds, options, control);
-    say_ends(wanted.flow, lines);
+    say_ends(wanted.times ? "pathlines" : "streamlines", wanted.flow, lines);
     auto tubes = std::make_shared<TubeSet>();
     tubes->radius = wanted.radius.value_or(default_radius * diagonal_of(bounds));
     for (const Streamline& line : lines) {

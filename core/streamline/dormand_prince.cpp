@@ -17,6 +17,8 @@ constexpr double weights[n_stages][n_stages] = {
     {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
     {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84},
 };
+/** Of a step, at which stages are: the sums of the rows. */
+constexpr double nodes[n_stages] = {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1};
 /** Result of order 5 less that of order 4. */
 constexpr double error_weights[n_stages] = {71.0 / 57600,      0,          -71.0 / 16695, 71.0 / 1920,
                                             -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
@@ -42,7 +44,7 @@ FlowStep dormand_prince(const Flow& flow, const FlowState& start, double step) {
         }
         result.end.at.xi = xi;
         result.end.arc_length = arc_length;
-        result.end.sample = flow.at(result.end.at);
+        result.end.sample = flow.at(result.end.at, start.time + step * nodes[stage]);
         slopes[stage] = result.end.sample.slope;
         speeds[stage] = length(result.end.sample.velocity);
     }

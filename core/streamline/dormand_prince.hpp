@@ -15,6 +15,7 @@ namespace elvis {
 struct FlowState {
     ReferencePoint at;
     FlowSample sample;
+    /** Since the seed, in the direction in which the flow is followed. */
     double time = 0;
     /** From where the line begins. */
     double arc_length = 0;

@@ -7,6 +7,8 @@
 #include <core/probe/newton.hpp>
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -57,6 +59,10 @@ Flow::Flow(const RuntimeVolume& volume, const std::string& field, std::uint32_t 
     }
 }
 
+Flow::Flow(const RuntimeVolume& volume, const std::string& field, FlowTimes times) : Flow(volume, field, 0) {
+    m_times = std::move(times);
+}
+
 Flow Flow::reversed() const {
     Flow other = *this;
     other.m_sign = -m_sign;
@@ -74,29 +80,66 @@ bool Flow::is_one_at_a_time() const {
     return !m_field && std::ranges::any_of(m_components, [](const auto& part) { return part->needs_element_facts(); });
 }
 
-Vector3 Flow::velocity(const ReferencePoint& point) const {
+Vector3 Flow::velocity(const ReferencePoint& point, std::uint32_t time_step) const {
     Vector3 velocity{};
     if (m_field) {
         const std::size_t n_components = m_volume->fields()[*m_field].n_components;
-        m_volume->evaluate_field(*m_field, m_time_step, point.element, point.xi, std::span(velocity).first(n_components), {});
+        m_volume->evaluate_field(*m_field, time_step, point.element, point.xi, std::span(velocity).first(n_components), {});
     } else {
-        VolumePoint here(*m_volume, point.element, point.xi, m_time_step);
+        VolumePoint here(*m_volume, point.element, point.xi, time_step);
         for (std::size_t i = 0; i < 3; ++i) {
             velocity[i] = evaluate(*m_components[i], here);
         }
     }
-    return scaled(velocity, m_sign);
+    return velocity;
 }
 
-FlowSample Flow::at(const ReferencePoint& point) const {
+Vector3 Flow::sum(const ReferencePoint& point, const TimeWeights& weights) const {
+    Vector3 total{};
+    for (std::size_t i = 0; i < weights.count; ++i) {
+        // At a time step it is that step alone, whatever the others hold.
+        if (weights.weights[i] != 0) {
+            total = plus(total, scaled(velocity(point, weights.steps[i]), weights.weights[i]));
+        }
+    }
+    return total;
+}
+
+FlowSample Flow::at(const ReferencePoint& point, double since) const {
     FlowSample sample;
     m_volume->evaluate_mapping(point.element, point.xi, sample.position, sample.jacobian);
-    sample.velocity = velocity(point);
+    const Vector3 field =
+        is_steady() ? velocity(point, m_time_step) : sum(point, m_times.course->at(m_times.start + m_sign * since));
+    sample.velocity = scaled(field, m_sign);
     sample.slope = product(invert_matrix(sample.jacobian), sample.velocity);
     if (m_volume->dimension() == 2) {
         sample.slope[2] = 0;
     }
     return sample;
+}
+
+std::optional<double> Flow::next_stop(double since) const {
+    if (is_steady()) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double now = m_times.start + m_sign * since;
+    const double end = m_sign > 0 ? m_times.last : m_times.first;
+    // Times that are told apart by rounding alone are one.
+    if (m_sign * (end - now) <= shortest_time()) {
+        return std::nullopt;
+    }
+    const std::optional<double> step = m_sign > 0 ? m_times.course->after(now) : m_times.course->before(now);
+    const double next = step && m_sign * (*step - end) < 0 ? *step : end;
+    return m_sign * (next - m_times.start);
+}
+
+std::optional<double> Flow::interpolation_doubt(const ReferencePoint& point, double since) const {
+    if (is_steady()) {
+        return std::nullopt;
+    }
+    const double middle = m_times.course->middle_about(m_times.start + m_sign * since);
+    const std::optional<TimeWeights> weights = m_times.course->doubt_at(middle);
+    return weights ? std::optional(length(sum(point, *weights))) : std::nullopt;
 }
 
 } // namespace elvis

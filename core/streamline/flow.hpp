@@ -8,6 +8,7 @@
 #include <core/expression/expression.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/probe/point_evaluator.hpp>
+#include <core/streamline/time_course.hpp>
 
 #include <array>
 #include <cstdint>
@@ -31,26 +32,50 @@ struct FlowSample {
 /** Throws Error for volumes in which lines cannot be followed. */
 void need_evaluation(const RuntimeVolume& volume);
 
-/** One step of time. The volume, which evaluates on the CPU, must outlive it. Several threads may use it. */
+/** Between which times a field that changes is followed, and when points are at their seeds. */
+struct FlowTimes {
+    std::shared_ptr<const TimeCourse> course;
+    double start = 0, first = 0, last = 0;
+};
+
+/**
+ * A field at one time step, or one that changes in time. The volume, which evaluates on the CPU, must outlive it. Several
+ * threads may use it. What it calls `since` is time since the seed, in the direction in which the flow is followed: never
+ * negative.
+ */
 class Flow {
 public:
     /** `field`: a vector by name or expression. Throws Error for what is none. */
     Flow(const RuntimeVolume& volume, const std::string& field, std::uint32_t time_step);
+    /** Of an expression it is the values at time steps that are interpolated. */
+    Flow(const RuntimeVolume& volume, const std::string& field, FlowTimes times);
 
-    /** Opposite to the field. */
+    /** Opposite to the field, and back in time. */
     Flow reversed() const;
+    bool is_steady() const { return !m_times.course; }
+    /** When points are at their seeds; 0 if it is steady. */
+    double start() const { return m_times.start; }
+    /** What is not told from rounding in times; 0 if it is steady. */
+    double shortest_time() const { return is_steady() ? 0 : 1e-12 * (m_times.course->last() - m_times.course->first()); }
 
-    FlowSample at(const ReferencePoint& point) const;
+    FlowSample at(const ReferencePoint& point, double since) const;
+    /** The next time step, or the end of what is followed; infinity if it is steady; nothing at the end of time. */
+    std::optional<double> next_stop(double since) const;
+    /** How far linear interpolation in time may be off there, as a velocity; nothing where that is not known. */
+    std::optional<double> interpolation_doubt(const ReferencePoint& point, double since) const;
     const RuntimeVolume& volume() const { return *m_volume; }
     elvis_shape shape_of(std::uint64_t element) const;
     /** Only one thread may use it. */
     bool is_one_at_a_time() const;
 
 private:
-    Vector3 velocity(const ReferencePoint& point) const;
+    Vector3 velocity(const ReferencePoint& point, std::uint32_t time_step) const;
+    Vector3 sum(const ReferencePoint& point, const TimeWeights& weights) const;
 
     const RuntimeVolume* m_volume;
     std::uint32_t m_time_step;
+    /** Without a course if it is steady. */
+    FlowTimes m_times;
     /** A field as it stands, or else expressions. */
     std::optional<std::uint32_t> m_field;
     std::array<std::shared_ptr<const Expression>, 3> m_components;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <thread>
 
@@ -40,10 +41,15 @@ public:
 
     /** Without the first point. */
     TraceEnd follow(FlowState state, std::vector<TracePoint>& points);
+    /** Of what was followed; see Streamline. */
+    double time_doubt() const { return m_doubt > 0 && m_fastest > 0 ? m_doubt / m_fastest : m_doubt; }
 
 private:
     double excess(const FlowState& state) const { return reference_excess(m_flow.shape_of(state.at.element), state.at.xi); }
     double first_step(const FlowState& state) const;
+    void note_doubt(const FlowState& state);
+    bool is_still(const FlowState& state, double speed) const;
+    bool can_shrink(double step, double speed) const;
     FlowStep end_where(const FlowState& start, double step, const std::function<double(const FlowState&)>& beyond) const;
     FlowStep end_on_face(const FlowState& start, FlowStep step) const;
     std::optional<TraceEnd> enter_next(FlowState& state) const;
@@ -55,7 +61,25 @@ private:
     const TraceOptions& m_options;
     const TaskControl& m_control;
     double m_tolerance;
+    double m_fastest = 0, m_doubt = -1;
 };
+
+void Tracer::note_doubt(const FlowState& state) {
+    if (const std::optional<double> doubt = m_flow.interpolation_doubt(state.at, state.time)) {
+        m_doubt = std::max(m_doubt, *doubt);
+    }
+}
+
+/** Nothing moves on there, now or later; what is not a number leads nowhere either. */
+bool Tracer::is_still(const FlowState& state, double speed) const {
+    const bool has_speed = m_flow.is_steady() ? speed > slowest * m_fastest : std::isfinite(speed);
+    return !has_speed || !std::isfinite(largest(state.sample.slope));
+}
+
+/** Shorter steps are nothing but rounding. */
+bool Tracer::can_shrink(double step, double speed) const {
+    return m_flow.is_steady() ? step * speed > 1e-14 * m_finder.diagonal() : step > m_flow.shortest_time();
+}
 
 double Tracer::first_step(const FlowState& state) const { return 0.1 * longest_step / largest(state.sample.slope); }
 
@@ -124,7 +148,7 @@ std::optional<TraceEnd> Tracer::enter_next(FlowState& state) const {
         has_other = has_other || there.element != state.at.element;
         FlowState next = state;
         next.at = {there.element, there.xi};
-        next.sample = m_flow.at(next.at);
+        next.sample = m_flow.at(next.at, state.time);
         if (leads_inside(next)) {
             state = next;
             return std::nullopt;
@@ -155,19 +179,27 @@ void Tracer::keep(const FlowState& from, const FlowState& to, std::vector<TraceP
 }
 
 TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
-    double fastest = length(state.sample.velocity), step = 0;
+    double step = 0;
     int n_still = 0;
+    m_fastest = length(state.sample.velocity);
     for (std::uint32_t n_steps = 0; n_steps < m_options.most_steps; ++n_steps) {
         m_control.check();
         const double speed = length(state.sample.velocity);
-        fastest = std::max(fastest, speed);
-        if (!(speed > slowest * fastest) || !std::isfinite(largest(state.sample.slope))) {
+        m_fastest = std::max(m_fastest, speed);
+        if (is_still(state, speed)) {
             return TraceEnd::stagnation;
         }
+        const std::optional<double> stop = m_flow.next_stop(state.time);
+        if (!stop) {
+            return TraceEnd::time;
+        }
         step = step > 0 ? std::min(step, longest_step / largest(state.sample.slope)) : first_step(state);
+        const bool reaches_stop = step >= *stop - state.time;
+        const double without_stop = step;
+        step = std::min(step, *stop - state.time);
         FlowStep next = dormand_prince(m_flow, state, step);
         const double ratio = next.error / m_tolerance;
-        if (!(ratio <= 1) && step * speed > 1e-14 * m_finder.diagonal()) {
+        if (!(ratio <= 1) && can_shrink(step, speed)) {
             step *= ratio > 0 ? std::max(0.2, 0.9 * std::pow(ratio, -0.2)) : 0.2;
             continue;
         }
@@ -181,9 +213,10 @@ TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
         if (leaves) {
             next = end_on_face(state, next);
         }
+        note_doubt(state);
         // It moves by no more than its error.
-        const bool is_still = length(minus(next.end.sample.position, state.sample.position)) < 10 * m_tolerance;
-        n_still = is_still ? n_still + 1 : 0;
+        const bool is_at_rest = length(minus(next.end.sample.position, state.sample.position)) < 10 * m_tolerance;
+        n_still = is_at_rest && m_flow.is_steady() ? n_still + 1 : 0;
         keep(state, next.end, points);
         state = next.end;
         if (n_still > most_still_steps) {
@@ -200,6 +233,10 @@ TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
             return TraceEnd::length;
         }
         step *= std::clamp(0.9 * std::pow(std::max(ratio, 1e-10), -0.2), 0.2, 5.0);
+        if (reaches_stop) {
+            state.time = *stop;
+            step = std::max(step, without_stop);
+        }
     }
     return TraceEnd::steps;
 }
@@ -224,10 +261,10 @@ Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed
     }
     // On a face each direction begins where it leads into.
     const auto follow = [&](const Flow& along, std::vector<TracePoint>& points) {
-        FlowState start{holders.front(), along.at(holders.front()), 0, 0};
+        FlowState start{holders.front(), along.at(holders.front(), 0), 0, 0};
         Tracer tracer(along, finder, options, control);
         for (const ReferencePoint& holder : holders) {
-            const FlowState other{holder, along.at(holder), 0, 0};
+            const FlowState other{holder, along.at(holder, 0), 0, 0};
             const double speed = largest(other.sample.slope);
             const Vector3 ahead = plus(holder.xi, scaled(other.sample.slope, speed > 0 ? look_ahead / speed : 0));
             if (reference_excess(along.shape_of(holder.element), ahead) <= grazing) {
@@ -235,9 +272,11 @@ Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed
                 break;
             }
         }
-        return tracer.follow(start, points);
+        const TraceEnd end = tracer.follow(start, points);
+        line.time_doubt = std::max(line.time_doubt, tracer.time_doubt());
+        return end;
     };
-    const FlowSample sample = flow.at(holders.front());
+    const FlowSample sample = flow.at(holders.front(), 0);
     if (options.direction != TraceDirection::forward) {
         std::vector<TracePoint> upstream;
         line.begin = follow(reversed, upstream);
@@ -246,6 +285,9 @@ Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed
     line.points.push_back({holders.front(), sample.position, 0, 0});
     if (options.direction != TraceDirection::backward) {
         line.end = follow(flow, line.points);
+    }
+    for (TracePoint& point : line.points) {
+        point.time += flow.start();
     }
     return line;
 }
@@ -257,14 +299,17 @@ std::vector<Streamline> trace(const Flow& flow, std::span<const Vector3> seeds, 
     const ElementFinder finder(flow.volume());
     const Flow reversed = flow.reversed();
     TraceOptions own = options;
-    own.most_length = options.most_length > 0 ? options.most_length : 10 * finder.diagonal();
+    if (!(options.most_length > 0)) {
+        own.most_length = flow.is_steady() ? 10 * finder.diagonal() : std::numeric_limits<double>::infinity();
+    }
     std::vector<Streamline> lines(seeds.size());
     Background background(std::max(1u, std::thread::hardware_concurrency()));
     const std::uint64_t part = flow.is_one_at_a_time() ? std::max<std::uint64_t>(1, seeds.size()) : 1;
     std::atomic<std::uint64_t> n_done = 0;
     const auto check = [&] {
         control.check();
-        control.progress(static_cast<double>(n_done.load()) / static_cast<double>(seeds.size()), "streamlines");
+        control.progress(static_cast<double>(n_done.load()) / static_cast<double>(seeds.size()),
+                         flow.is_steady() ? "streamlines" : "pathlines");
     };
     in_parts(
         background, seeds.size(), part,

@@ -1,5 +1,6 @@
 """Scenes as objects, pictures as arrays, bytes of the launcher."""
 
+import base64
 import json
 import os
 import signal
@@ -8,6 +9,7 @@ import sys
 import threading
 import time
 import unittest
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -38,6 +40,32 @@ class Pictures(WithVolume):
             self.assertEqual(own.read(), launcher.read())
         again = elvis.Scene.read(self.path("scene.json"))
         np.testing.assert_array_equal(again.render().color, scene.render().color)
+
+    def test_svg_has_the_pixels_of_the_picture_without_annotation(self):
+        scene = self.scene()
+        scene.image.size = [200, 150]
+        scene.camera.eye = [3, 2, 2]
+        scene.camera.look_at = [0, 0, 0]
+        scene.render().save(self.path("bare.png"))
+        scene.image.annotation = {"title": "p < 1 & more"}
+        picture = scene.render()
+        picture.save(self.path("annotated.svg"))
+        root = ElementTree.parse(self.path("annotated.svg")).getroot()
+        space = "{http://www.w3.org/2000/svg}"
+        self.assertEqual((root.get("width"), root.get("viewBox")), ("200", "0 0 200 150"))
+        kind, data = root.find(f"{space}image").get("{http://www.w3.org/1999/xlink}href").split(",")
+        self.assertEqual(kind, "data:image/png;base64")
+        with open(self.path("bare.png"), "rb") as file:
+            self.assertEqual(base64.b64decode(data, validate=True), file.read())
+        words = [text.text for text in root.iter(f"{space}text")]
+        for word in ("p < 1 & more", "p", "x", "y", "z"):
+            self.assertIn(word, words)
+        self.assertGreater(len(list(root.iter(f"{space}polygon"))), 60)
+        # The picture itself is as it was.
+        picture.save(self.path("annotated.png"))
+        scene.render().save(self.path("again.png"))
+        with open(self.path("annotated.png"), "rb") as one, open(self.path("again.png"), "rb") as other:
+            self.assertEqual(one.read(), other.read())
 
     def test_arrays_of_a_picture_fit_together(self):
         picture = self.scene().render(80, 60)

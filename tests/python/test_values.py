@@ -2,6 +2,7 @@
 
 import random
 import threading
+import json
 import unittest
 
 import numpy as np
@@ -90,6 +91,26 @@ class Values(WithVolume):
             np.testing.assert_allclose(line.values["p"], x * x * y + z, atol=1e-12)
             self.assertEqual(line.values["velocity"].shape, (len(x), 3))
         self.assertRaises(elvis.Error, lambda: self.volume.streamlines("p", [0, 0, 0]))
+
+    def test_pathlines_follow_a_rotation_that_gets_faster(self):
+        with open(self.path("faster.json"), "w", encoding="utf-8") as file:
+            json.dump({"generator": 1, "mesh": "box", "elements": 2, "field": "sphere", "time_steps": 3}, file)
+        elvis.convert(self.path("faster.json"), self.path("faster.h5"))
+        volume = elvis.open(self.path("faster.h5"))
+        flow = "0.5 * (d(sphere, x) * grad(y) - d(sphere, y) * grad(x))"  # Angular velocity 1 + t.
+        line, = volume.pathlines(flow, [[0.5, 0, 0.1]], "sphere", start_time=0.5, end_time=1.75, interpolation="linear", tolerance=1e-12)
+        self.assertEqual((line.begin, line.end), ("length", "time"))
+        self.assertEqual((line.times[0], line.times[-1]), (0.5, 1.75))
+        angle = 1.25 + (1.75 ** 2 - 0.5 ** 2) / 2
+        np.testing.assert_allclose(line.positions[-1], [0.5 * np.cos(angle), 0.5 * np.sin(angle), 0.1], atol=1e-10)
+        # Values are those at the points' own times.
+        np.testing.assert_allclose(line.values["sphere"], (1 + line.times) * (line.positions ** 2).sum(axis=1), atol=1e-12)
+        back, = volume.pathlines(flow, line.positions[-1:], direction="backward", start_time=1.75, end_time=0.5, tolerance=1e-12)
+        np.testing.assert_allclose(back.positions[0], [0.5, 0, 0.1], atol=1e-10)
+        with self.assertRaisesRegex(elvis.Error, "not within the times"):
+            volume.pathlines(flow, [0.5, 0, 0.1], start_time=2.5)
+        with self.assertRaisesRegex(elvis.Error, "at least two"):
+            self.volume.pathlines("velocity", [0.5, 0, 0.1])
 
     def test_a_mesh_lies_on_the_surface(self):
         mesh = self.volume.extract("p", isosurface=0.4, values=["p", "velocity"], tolerance=3e-3)

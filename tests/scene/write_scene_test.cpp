@@ -100,13 +100,22 @@ const std::vector<std::string>& documents() {
                           "key_frames": [{"frame": 0}, {"frame": 5, "eye": [1.0, 2.0, 3.0], "look_at": [0.0, 1.0, 0.0], "up": [0.0, 0.0, 1.0],
                                                         "field_of_view": 30.0, "height": 2.0}],
                           "frames_a_second": 25.0}})json",
+        R"json({"version": 1, "volume": {"path": "a.h5"},
+            "volumes": [{"time_step": 0, "offset": [1.0, 2.0, 3.0]}, {"offset": [0.0, 0.0, 0.0], "field": "p"},
+                        {"path": "b.mesh", "more_paths": ["b.gf"], "plugin": "org.b", "options": {"c": 1}, "time_step": 4,
+                         "offset": [0.0, 0.0, 1.0]}],
+            "image": {"size": [10, 20], "background": [1.0, 1.0, 1.0, 1.0]}})json",
         R"json({"version": 1, "warp": {"field": "u", "imaginary": "v", "factor": 2.5, "phase": 30.0}, "threshold": "p > 0.2 && x < y",
             "image": {"size": [10, 20], "background": [1.0, 1.0, 1.0, 1.0]},
             "surfaces": [
               {"type": "streamlines", "flow": "curl(u)", "seeds": [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]], "direction": "backward", "length": 3.0,
                "tolerance": 1e-6, "radius": 0.01, "color": [0.9, 0.5, 0.2]},
               {"type": "arrows", "vectors": "grad(p)", "on": "cut", "spacing": 0.25, "scale": 2.0, "field": "p", "opacity": 0.5},
-              {"type": "streamlines", "flow": "u", "seed_grid": 7, "direction": "both", "tolerance": 1e-9, "field": "p"}],
+              {"type": "streamlines", "flow": "u", "seed_grid": 7, "direction": "both", "tolerance": 1e-9, "field": "p"},
+              {"type": "pathlines", "flow": "u", "seed_grid": 3, "direction": "backward", "tolerance": 1e-9, "start_time": 2.5,
+               "end_time": 0.5, "interpolation": "linear"},
+              {"type": "pathlines", "flow": "u", "seeds": [[0.0, 1.0, 2.0]], "direction": "forward", "tolerance": 1e-9,
+               "interpolation": "cubic", "color": [1.0, 0.0, 0.0]}],
             "animation": {"phases": 12, "frames_a_second": 25.0}})json"};
     return list;
 }

@@ -6,8 +6,10 @@ import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
+import zipfile
 
 from driver import Display, Failure, Window, check_programs, pixels, require
 
@@ -272,6 +274,112 @@ def chooses_ranges(window):
     window.picture("logarithmic.png")
 
 
+def array_of_doubles(path, name):
+    """Of NumPy's .npz, without NumPy."""
+    with zipfile.ZipFile(path) as archive:
+        data = archive.read(name + ".npy")
+    header, = struct.unpack("<H", data[8:10])
+    return struct.unpack(f"<{(len(data) - 10 - header) // 8}d", data[10 + header:])
+
+
+def probes_a_line(window, elvis):
+    """The table that is copied holds the places where elements begin, as elvis sample finds them."""
+    window.click("tab/Line")
+    window.click("line/add")
+    screen = window.wait_for(lambda screen: screen["line"], "the line's plot")
+    window.click("line/x")
+    window.wait_for(lambda screen: max(abs(x) for x in screen["line"]["from"][1:] + screen["line"]["to"][1:]) < 1e-9,
+                    "the line along x")
+    screen = window.settle()
+    require(len(screen["line"]["breaks"]) > 3, f"the breaks are {screen['line']['breaks']}")
+    before = screen["line"]
+    window.drag(window.place("handle/line to"), (-40, 50))
+    screen = window.wait_for(lambda screen: screen["line"]["to"] != before["to"], "the end to be dragged")
+    window.settle()
+    window.xdotool("mousemove", *window.place("line/plot", 0.5))
+    screen = window.picture("line.png")
+    line = screen["line"]
+    require(line["from"] == before["from"], "the other end has moved, too")
+    ends = [",".join(repr(x) for x in line[end]) for end in ("from", "to")]
+    run(elvis, window.folder, "sample", "ball.h5", "--line", *ends, "--count", "400", "--field", "waves", "-o", "line.npz")
+    exact = array_of_doubles("line.npz", "break_points")
+    shown = [x for place in line["breaks"] for x in place]
+    require(len(exact) == len(shown) and max(abs(a - b) for a, b in zip(exact, shown)) < 1e-12,
+            "elements begin elsewhere than elvis sample says")
+    window.click("line/copy")
+    window.click("line/remove")
+    window.wait_for(lambda screen: screen["line"] is None, "the line to go")
+    return line["table"]
+
+
+def title_of(screen):
+    annotation = screen["scene"]["image"].get("annotation", {})
+    return annotation.get("title", "") if isinstance(annotation, dict) else ""
+
+
+def pasted(window):
+    """The clipboard, as a text field takes it: without tabs and line ends."""
+    window.click("tab/Scene")
+    if "scene/title" not in window.settle()["places"]:
+        window.click("scene/own title", 0.05)
+    text = ""
+    for _ in range(3):  # ImGui 1.86 misses keys where frames take long.
+        window.click("scene/title")
+        window.key("ctrl+a")
+        window.key("ctrl+v")
+        window.key("Return")
+        text = title_of(window.settle())
+        if text:
+            break
+    window.click("scene/own title", 0.05)
+    window.wait_for(lambda screen: not title_of(screen), "the title to go again")
+    return text
+
+
+def finds_numbers(window, elvis):
+    """Integrals and extrema are those of the commands."""
+    window.click("tab/Numbers")
+    window.click("numbers/find")
+    screen = window.wait_for(lambda screen: screen["numbers"]["table"] and not screen["numbers"]["finding"], "the numbers")
+    names, volume, boundary = (line.split("\t") for line in screen["numbers"]["table"].splitlines())
+    asked = ["ball.h5", "--field", "waves", "--time-step", str(time_step(screen))]
+    integral = json.loads(run(elvis, window.folder, "integrate", *asked))
+    extrema = json.loads(run(elvis, window.folder, "extrema", *asked))
+    surface = json.loads(run(elvis, window.folder, "integrate", *asked, "--boundary"))
+    shown = dict(zip(names, volume))
+    require(abs(float(shown["integral"]) - integral["value"]) <= integral["error"], f"{shown} is not {integral}")
+    require(float(shown["maximum"]) == extrema["maximum"]["value"], f"{shown} is not {extrema}")
+    require(abs(float(dict(zip(names, boundary))["measure"]) - surface["measure"]) <= surface["measure_error"], f"{boundary} is not {surface}")
+    window.picture("numbers.png")
+    window.click("numbers/copy")
+    return screen["numbers"]["table"]
+
+
+def edits_streamlines_and_warp(window):
+    window.click("items/add")
+    window.click("add/Streamlines")
+    window.wait_for(lambda screen: screen["items"][-1] == "Streamlines velocity", "the streamlines")
+    window.click("streamlines/grid", 0.05)
+    screen = window.wait_for(lambda screen: len(screen["scene"]["surfaces"][1].get("seeds", [])) == 1, "a seed")
+    seed = screen["scene"]["surfaces"][1]["seeds"][0]
+    window.click("item/0/shown")
+    window.drag(window.place("handle/seed"), (30, -20))
+    window.wait_for(lambda screen: screen["scene"]["surfaces"][1]["seeds"][0] != seed, "the seed to move")
+    window.click("streamlines/pathlines", 0.05)
+    window.wait_for(lambda screen: screen["scene"]["surfaces"][1]["type"] == "pathlines", "pathlines")
+    window.click("tab/Scene")
+    window.wheel(window.place("scene/field"), -10)
+    window.click("scene/warp", 0.05)
+    window.wait_for(lambda screen: screen["scene"].get("warp", {}).get("field") == "velocity", "the displacement")
+    screen = window.settle()
+    require(not any("error" in message for message in screen["messages"][-2:]), f"it says {screen['messages']}")
+    window.picture("streamlines.png")
+    for _ in range(6):
+        window.key("ctrl+z")
+    window.wait_for(lambda screen: screen["items"] == ["Boundary"] and "warp" not in screen["scene"], "all to go again")
+    window.settle()
+
+
 def hides_all(window, elvis):
     """What is seen then is the background, and so it is for elvis render."""
     window.click("item/0/shown")
@@ -333,6 +441,12 @@ def main(elvis, folder):
         chooses_elements(window)
         pulls_peaks(window)
         chooses_ranges(window)
+        without_tabs = str.maketrans("", "", "\t\n")
+        for answers in (probes_a_line, finds_numbers):
+            table = answers(window, elvis)
+            found, wanted = pasted(window)[:60], table.translate(without_tabs)[:60]
+            require(found == wanted, f"the clipboard holds '{found}' in place of '{wanted}'")
+        edits_streamlines_and_warp(window)
         hides_all(window, elvis)
         quits(window)
     finally:

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,11 +34,15 @@ struct StreamlinesArguments {
     double length = 0, tolerance = 0;
     std::uint32_t time_step = 0;
     std::string output;
+    /** They are pathlines. */
+    bool is_unsteady = false;
+    bool is_linear = false;
+    std::optional<double> start_time, end_time;
 };
 
 std::vector<double> seeds_of(const StreamlinesArguments& arguments) {
     if (arguments.line.empty() == arguments.seeds.empty()) {
-        throw UsageError("elvis streamlines", "takes one of --line and --seeds");
+        throw UsageError(arguments.is_unsteady ? "elvis pathlines" : "elvis streamlines", "takes one of --line and --seeds");
     }
     if (!arguments.line.empty()) {
         return points_along({point("--line", arguments.line[0]), point("--line", arguments.line[1])}, arguments.count)
@@ -67,6 +72,11 @@ traced traced_lines(const data& volume, const StreamlinesArguments& arguments, c
     wanted.fields = names.data();
     wanted.tolerance = arguments.tolerance;
     wanted.length = arguments.length;
+    wanted.flags = (arguments.is_unsteady ? ELVIS_TRACE_PATHLINES : 0u) | (arguments.start_time ? ELVIS_TRACE_START_TIME : 0u) |
+                   (arguments.end_time ? ELVIS_TRACE_END_TIME : 0u);
+    wanted.interpolation = arguments.is_linear ? ELVIS_TIME_LINEAR : ELVIS_TIME_CUBIC;
+    wanted.start_time = arguments.start_time.value_or(0);
+    wanted.end_time = arguments.end_time.value_or(0);
     TaskControl control;
     const ProgressBar progress(control);
     const InterruptGuard guard(control);
@@ -84,7 +94,7 @@ std::vector<LineColumn> columns_of(const data& volume, const std::vector<std::st
 }
 
 void say_ends(const traced& lines) {
-    std::array<std::size_t, ELVIS_LINE_NO_ELEMENT + 1> counts{};
+    std::array<std::size_t, ELVIS_LINE_TIME + 1> counts{};
     for (std::size_t line = 0; line < lines.begins.size(); ++line) {
         ++counts[lines.begins[line]];
         counts[lines.ends[line]] += lines.begins[line] != ELVIS_LINE_NO_ELEMENT ? 1 : 0;
@@ -94,6 +104,10 @@ void say_ends(const traced& lines) {
         if (counts[end] > 0) {
             std::printf("  %zu %s\n", counts[end], word_of(end));
         }
+    }
+    if (lines.time_doubt >= 0) {
+        std::printf("between time steps linear and cubic interpolation are up to %.2g of the largest speed apart\n",
+                    lines.time_doubt);
     }
 }
 
@@ -121,33 +135,62 @@ const char* word_of(elvis_line_end end) {
                                      "ends at the length or the seed",
                                      "ends after as many steps as are allowed",
                                      "ends at faces where the field jumps back",
-                                     "seeds in no element"};
+                                     "seeds in no element",
+                                     "ends at the end of time, or at the seed"};
     return words[end];
 }
+
+namespace {
+
+/** What both commands have. */
+void add_common(CLI::App& command, StreamlinesArguments& arguments) {
+    command.add_option("volume", arguments.files, "Volume, whatever its format (geometry first, then field files)")->required();
+    command.add_option("--plugin", arguments.plugin, "Plugin by id; default: the one surest of the file");
+    command.add_option("--field", arguments.field, "The vector field or expression")->required();
+    command.add_option("--line", arguments.line, "x,y,z x,y,z: seeds evenly along a line")->expected(2);
+    command.add_option("--count", arguments.count, "Seeds along the line; default: 20")->check(CLI::Range(1, 1000000));
+    command.add_option("--seeds", arguments.seeds, "File with three numbers a line; # starts a comment");
+    command.add_option("--direction", arguments.direction, "both, forward or backward; default: " + arguments.direction)
+        ->check(CLI::IsMember({"both", "forward", "backward"}));
+    command.add_option("--values", arguments.fields, "Field or expression whose values are written, too (repeatable)")
+        ->allow_extra_args(false);
+    command
+        .add_option("--tolerance", arguments.tolerance,
+                    "Of a step's error, as a share of the diagonal of the bounds; default: 1e-9")
+        ->check(CLI::Range(1e-14, 0.01));
+    command.add_option("-o,--output", arguments.output, "File to write: .vtp or .csv")->required();
+}
+
+} // namespace
 
 void add_streamlines(CLI::App& app) {
     auto arguments = std::make_shared<StreamlinesArguments>();
     CLI::App* command = app.add_subcommand("streamlines", "Write curves that are everywhere tangent to a vector field");
-    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
-        ->required();
-    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
-    command->add_option("--field", arguments->field, "The vector field or expression")->required();
-    command->add_option("--line", arguments->line, "x,y,z x,y,z: seeds evenly along a line")->expected(2);
-    command->add_option("--count", arguments->count, "Seeds along the line; default: 20")->check(CLI::Range(1, 1000000));
-    command->add_option("--seeds", arguments->seeds, "File with three numbers a line; # starts a comment");
-    command->add_option("--direction", arguments->direction, "both (default), forward or backward")
-        ->check(CLI::IsMember({"both", "forward", "backward"}));
-    command->add_option("--values", arguments->fields, "Field or expression whose values are written, too (repeatable)")
-        ->allow_extra_args(false);
+    add_common(*command, *arguments);
     command->add_option("--length", arguments->length, "Of a line in each direction; default: ten times the diagonal")
         ->check(CLI::PositiveNumber);
-    command
-        ->add_option("--tolerance", arguments->tolerance,
-                     "Of a step's error, as a share of the diagonal of the bounds; default: 1e-9")
-        ->check(CLI::Range(1e-14, 0.01));
     add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
-    command->add_option("-o,--output", arguments->output, "File to write: .vtp or .csv")->required();
+    command->callback([arguments] { run_streamlines(*arguments); });
+}
+
+void add_pathlines(CLI::App& app) {
+    auto arguments = std::make_shared<StreamlinesArguments>();
+    arguments->is_unsteady = true;
+    arguments->direction = "forward";
+    CLI::App* command = app.add_subcommand("pathlines", "Write the ways of points that move with a vector field in time");
+    add_common(*command, *arguments);
+    command->add_option("--length", arguments->length, "Of a line in each direction; default: no limit")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--start-time", arguments->start_time,
+                        "When points are at their seeds; default: the first time step's time, backward the last one's");
+    command->add_option("--end-time", arguments->end_time,
+                        "Till when, or backward since when, they are followed; default: as far as time steps go");
+    command
+        ->add_option_function<std::string>(
+            "--interpolation", [arguments](const std::string& word) { arguments->is_linear = word == "linear"; },
+            "Between time steps: cubic (default) or linear")
+        ->check(CLI::IsMember({"cubic", "linear"}));
     command->callback([arguments] { run_streamlines(*arguments); });
 }
 

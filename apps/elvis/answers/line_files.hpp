@@ -1,6 +1,6 @@
 /**
  * @file line_files.hpp
- * The files of `elvis streamlines`. Each appears whole or not at all.
+ * The files of `elvis streamlines` and `elvis pathlines`. Each appears whole or not at all.
  */
 #pragma once
 

@@ -180,6 +180,8 @@ void add_render(CLI::App& app, DivisibleTeam* team) {
         ->needs(arrows)
         ->check(CLI::PositiveNumber)
         ->check(finite_number());
+    command->add_option("--pathlines", a->pathlines,
+                        "Tubes along the ways of points that move with this vector field through all time steps");
     add_lines_and_colors(*command, *a);
     add_camera(*command, *a);
     add_picture(*command, *a);

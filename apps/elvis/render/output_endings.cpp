@@ -23,6 +23,14 @@ void need_ending(const char* option, const std::string& name, std::initializer_l
 
 void need_picture_ending(const char* option, const std::string& name) { need_ending(option, name, {".png"}); }
 
+void need_still_ending(const char* option, const std::string& name) { need_ending(option, name, {".png", ".svg"}); }
+
+bool is_svg(const std::string& name) {
+    std::string lower = name;
+    std::ranges::transform(lower, lower.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return lower.ends_with(".svg");
+}
+
 void need_hdf5_ending(const char* option, const std::string& name) { need_ending(option, name, {".h5", ".hdf5"}); }
 
 void need_film_ending(const char* option, const std::string& name) {

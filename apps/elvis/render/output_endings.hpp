@@ -12,8 +12,12 @@ namespace elvis::commands {
 /** Throws UsageError, which names `option` and what is supported, unless the name has one of the endings, in any case. */
 void need_ending(const char* option, const std::string& name, std::initializer_list<const char*> endings);
 
-/** Of pictures. */
+/** Of pictures that are drawn in parts: PNG. */
 void need_picture_ending(const char* option, const std::string& name);
+/** Of single pictures: PNG, or SVG with annotation as shapes and text. */
+void need_still_ending(const char* option, const std::string& name);
+/** By its ending. */
+bool is_svg(const std::string& name);
 /** Of HDF5 files. */
 void need_hdf5_ending(const char* option, const std::string& name);
 /** Of films, as ffmpeg knows them by their endings. */

@@ -54,7 +54,8 @@ void apply_arrows(const RenderArguments& arguments, Document& scene) {
     const std::size_t n_surfaces = scene.has("/surfaces") ? scene.at("/surfaces").size() : 0;
     for (std::size_t i = 0; i < n_surfaces; ++i) {
         const std::string pointer = "/surfaces/" + std::to_string(i);
-        if (scene.at((pointer + "/type").c_str()) != "streamlines") {
+        const auto type = scene.at((pointer + "/type").c_str());
+        if (type != "streamlines" && type != "pathlines") {
             names.push_back("surface " + std::to_string(i));
             scene.set(pointer + "/name", names.back());
         }
@@ -68,10 +69,13 @@ void apply_arrows(const RenderArguments& arguments, Document& scene) {
     }
 }
 
+bool has_lines(const RenderArguments& arguments) {
+    return !arguments.streamlines.empty() || !arguments.pathlines.empty() || !arguments.arrows.empty();
+}
+
 /** Surfaces of the command line stand instead of those of the file. */
 void apply_surfaces(const RenderArguments& arguments, Document& scene) {
-    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty() || !arguments.streamlines.empty() ||
-        !arguments.arrows.empty()) {
+    if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty() || has_lines(arguments)) {
         scene.remove("/surfaces");
         scene.remove("/isosurfaces");
     }
@@ -96,6 +100,9 @@ void apply_surfaces(const RenderArguments& arguments, Document& scene) {
     }
     if (!arguments.streamlines.empty()) {
         scene.set("/surfaces/-", {{"type", "streamlines"}, {"flow", arguments.streamlines}});
+    }
+    if (!arguments.pathlines.empty()) {
+        scene.set("/surfaces/-", {{"type", "pathlines"}, {"flow", arguments.pathlines}});
     }
     apply_arrows(arguments, scene);
 }
@@ -328,9 +335,8 @@ void apply_image(const RenderArguments& arguments, Document& scene) {
     }
     if (!arguments.lighting.empty()) {
         scene.set("/lighting", arguments.lighting);
-    } else if (!arguments.is_scene &&
-               (!arguments.isovalues.empty() || !arguments.streamlines.empty() || !arguments.arrows.empty()) &&
-               arguments.cut_planes.empty() && !arguments.boundary) {
+    } else if (!arguments.is_scene && (!arguments.isovalues.empty() || has_lines(arguments)) && arguments.cut_planes.empty() &&
+               !arguments.boundary) {
         // Without light they are flat shapes of one colour; colours of planes and boundaries are to be read. A scene says what
         // it wants.
         scene.set("/lighting", "default");

@@ -42,7 +42,7 @@ struct RenderArguments {
     bool boundary = false;
     std::vector<double> isovalues;
     /** The vector field. */
-    std::string streamlines;
+    std::string streamlines, pathlines;
     std::string arrows;
     double arrow_spacing = 0;
     std::string volume;

@@ -39,7 +39,8 @@ struct Wanted {
 void check_names(const Wanted& wanted) {
     const RenderArguments& arguments = wanted.arguments;
     if (!wanted.is_animation) {
-        need_picture_ending("--output", arguments.output);
+        !arguments.parts.empty() ? need_picture_ending("--output", arguments.output)
+                                 : need_still_ending("--output", arguments.output);
     }
     if (!arguments.buffers.empty()) {
         need_hdf5_ending("--buffers", arguments.buffers);
@@ -194,7 +195,8 @@ void render_picture(const Wanted& wanted, const data& volume, double load_millis
         volume.render(wanted.shown, options, watch);
         repeated.push_back(milliseconds_since(frame_start));
     }
-    drawn.write_png(arguments.output, static_cast<std::uint32_t>(arguments.bits));
+    const auto bits = static_cast<std::uint32_t>(arguments.bits);
+    is_svg(arguments.output) ? drawn.write_svg(arguments.output, bits) : drawn.write_png(arguments.output, bits);
     if (!arguments.buffers.empty()) {
         drawn.write_buffers(arguments.buffers);
     }

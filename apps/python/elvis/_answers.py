@@ -32,21 +32,21 @@ class Integral:
         return self.value
 
 
-ENDS = ("left volume", "stagnation", "length", "steps", "jump", "no element")
+ENDS = ("left volume", "stagnation", "length", "steps", "jump", "no element", "time")
 """Why lines begin and end: the numbers of the library, in words."""
 
 
 @dataclass(frozen=True)
 class Streamline:
-    """A curve that is everywhere tangent to a vector field; points in the order of time."""
+    """A curve that is everywhere tangent to a vector field, or the way of a point that moves with it; points in the order of time."""
 
     begin: str
-    """Why it begins there: left volume, stagnation, length (or the seed), steps, jump, no element."""
+    """Why it begins there: left volume, stagnation, length (or the seed), steps, jump, no element; of pathlines also time."""
     end: str
     positions: np.ndarray
     """(n, 3)"""
     times: np.ndarray
-    """(n,): from the seed on, negative upstream."""
+    """(n,): from the seed on, negative upstream; of pathlines as time steps have it."""
     arc_lengths: np.ndarray
     elements: np.ndarray
     xi: np.ndarray

@@ -171,7 +171,25 @@ class Volume:
         n_values = [self._handle.count_values(name) for name in names]
         with progress_for(progress) as report:
             found = self._handle.trace(field, np.atleast_2d(np.asarray(seeds, dtype=float)), ("both", "forward", "backward").index(direction),
-                                       names, tolerance, length, time_step, report)
+                                       names, tolerance, length, time_step, False, False, None, None, report)
+        return streamlines_of(found, names, n_values)
+
+    def pathlines(self, field: str, seeds: ArrayLike, fields: str | Sequence[str] = (), *, direction: str = "forward",
+                  start_time: float | None = None, end_time: float | None = None, interpolation: str = "cubic", tolerance: float = 1e-9,
+                  length: float = 0.0, progress: Progress = True) -> list[Streamline]:
+        """The ways of points that move with a vector field through the time steps, one from each seed.
+
+        field: a vector by name or expression, interpolated between time steps (cubic or linear). seeds: (n, 3). fields: names or
+        expressions whose values along the ways, at the points' times, are wanted. direction: forward in time, backward or both.
+        start_time: when points are at their seeds; the first time step, backward the last one. end_time: till when, backward since
+        when, they are followed. tolerance and length: as of streamlines, but without a limit of length.
+        """
+        names = [fields] if isinstance(fields, str) else list(fields)
+        n_values = [self._handle.count_values(name) for name in names]
+        with progress_for(progress) as report:
+            found = self._handle.trace(field, np.atleast_2d(np.asarray(seeds, dtype=float)), ("both", "forward", "backward").index(direction),
+                                       names, tolerance, length, 0, True, ("cubic", "linear").index(interpolation) == 1, start_time,
+                                       end_time, report)
         return streamlines_of(found, names, n_values)
 
     def warp(self, field: str, factor: float = 1.0, *, imaginary: str | None = None, phase: float = 0.0, time_step: int = 0,

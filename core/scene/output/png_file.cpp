@@ -9,6 +9,7 @@
 #include <cmath>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <vector>
@@ -56,21 +57,42 @@ bool write_rows(std::FILE* file, const Frame& frame, int bits, std::size_t n_cha
     return true;
 }
 
-} // namespace
-
-void write_png(const Frame& frame, const std::string& path, int bits) {
+/** Calls write(number of channels, the rows' bytes). */
+template <class Write> bool with_rows(const Frame& frame, int bits, const Write& write) {
     bool is_opaque = true;
     for (std::size_t at = 3; at < frame.color.size(); at += 4) {
         is_opaque = is_opaque && frame.color[at] >= 1;
     }
     const std::size_t n_channels = is_opaque ? 3 : 4;
-    const std::vector<unsigned char> bytes = quantised(frame, bits, n_channels);
+    return write(n_channels, quantised(frame, bits, n_channels).data());
+}
+
+} // namespace
+
+std::vector<unsigned char> png_bytes(const Frame& frame, int bits) {
+    char* memory = nullptr;
+    std::size_t size = 0;
+    std::FILE* file = open_memstream(&memory, &size);
+    const bool is_written = file != nullptr && with_rows(frame, bits, [&](std::size_t n_channels, const unsigned char* bytes) {
+                                return write_rows(file, frame, bits, n_channels, bytes);
+                            });
+    const bool is_whole = file != nullptr && std::fclose(file) == 0 && is_written;
+    const std::unique_ptr<char, decltype(&std::free)> held(memory, &std::free);
+    if (!is_whole) {
+        throw Error("picture", std::string("cannot be made a PNG: ") + std::strerror(errno));
+    }
+    return {memory, memory + size};
+}
+
+void write_png(const Frame& frame, const std::string& path, int bits) {
     OutputFile output(path);
     std::FILE* file = std::fopen(output.temporary().c_str(), "wb");
     if (!file) {
         throw Error(path, std::string("cannot be written: ") + std::strerror(errno));
     }
-    const bool is_written = write_rows(file, frame, bits, n_channels, bytes.data());
+    const bool is_written = with_rows(frame, bits, [&](std::size_t n_channels, const unsigned char* bytes) {
+        return write_rows(file, frame, bits, n_channels, bytes);
+    });
     if (std::fclose(file) != 0 || !is_written) {
         throw Error(path, std::string("cannot be written: ") + std::strerror(errno));
     }

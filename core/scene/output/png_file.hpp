@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace elvis {
 
@@ -16,6 +17,9 @@ namespace elvis {
 inline unsigned level_of(double channel, unsigned largest) {
     return static_cast<unsigned>(std::lround(largest * std::clamp(channel, 0.0, 1.0)));
 }
+
+/** The file's bytes: see write_png(). */
+std::vector<unsigned char> png_bytes(const Frame& frame, int bits);
 
 /**
  * Writes Frame::color with `bits` (8 or 16) a channel: round(c (2^bits - 1)) after clamping, no gamma; with alpha only if some

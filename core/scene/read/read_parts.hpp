@@ -38,6 +38,8 @@ void check_place_keys(const JsonObject& object, const std::string& type);
 CutShape read_shape(const JsonObject& object, const std::string& type, const std::string& scene);
 /** Of a surface of type "streamlines". */
 SceneStreamlines read_streamlines(const JsonObject& object);
+/** Of a surface of type "pathlines". */
+SceneStreamlines read_pathlines(const JsonObject& object);
 /** Of a surface of type "arrows". */
 SceneArrows read_arrows(const JsonObject& object);
 /** Of a surface of type "elements" or "wireframe". */

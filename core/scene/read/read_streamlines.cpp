@@ -11,12 +11,24 @@ SceneStreamlines::Direction direction_of(const JsonObject& object) {
                                 : SceneStreamlines::Direction::both;
 }
 
+ScenePathTimes read_path_times(const JsonObject& object) {
+    ScenePathTimes times;
+    if (object.has("start_time")) {
+        times.start = object.number("start_time");
+    }
+    if (object.has("end_time")) {
+        times.end = object.number("end_time");
+    }
+    times.is_linear = object.has("interpolation") && object.word("interpolation") == "linear";
+    return times;
+}
+
 } // namespace
 
 SceneStreamlines read_streamlines(const JsonObject& object) {
     SceneStreamlines lines;
     if (!object.has("flow")) {
-        object.fail("flow", "is missing, which streamlines need: a vector field");
+        object.fail("flow", "is missing, which streamlines and pathlines need: a vector field");
     }
     lines.flow = object.text("flow");
     if (object.has("seeds")) {
@@ -41,6 +53,18 @@ SceneStreamlines read_streamlines(const JsonObject& object) {
     }
     if (object.has("radius")) {
         lines.radius = object.number("radius");
+    }
+    return lines;
+}
+
+SceneStreamlines read_pathlines(const JsonObject& object) {
+    SceneStreamlines lines = read_streamlines(object);
+    lines.times = read_path_times(object);
+    if (!object.has("direction")) {
+        lines.direction = SceneStreamlines::Direction::forward;
+    }
+    if (lines.times->end && lines.direction == SceneStreamlines::Direction::both) {
+        object.fail("end_time", "is of one direction, which is forward or backward, not both");
     }
     return lines;
 }

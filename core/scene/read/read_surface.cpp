@@ -140,9 +140,9 @@ SceneSurface read_surface(const JsonObject& object, const std::string& type, con
         if (object.has("color_field")) {
             surface.color_field = object.text("color_field");
         }
-    } else if (type == "streamlines") {
+    } else if (type == "streamlines" || type == "pathlines") {
         surface.geometry = TubeSurface{};
-        surface.streamlines = read_streamlines(object);
+        surface.streamlines = type == "streamlines" ? read_streamlines(object) : read_pathlines(object);
         if (object.has("color")) {
             surface.color_map = uniform_color_map(fixed<3>(object.numbers("color")));
         }

@@ -27,18 +27,35 @@ SceneJson camera_json(const SceneCamera& camera) {
     return json;
 }
 
-SceneJson volume_json(const Scene& scene, const std::string& path) {
+SceneJson files_json(const std::string& file, const std::vector<std::string>& more_files, const std::string& plugin,
+                     const std::string& options, const std::string& path) {
     SceneJson json;
-    json["path"] = seen_from(path, scene.volume);
-    for (const std::string& more : scene.more_files) {
+    json["path"] = seen_from(path, file);
+    for (const std::string& more : more_files) {
         json["more_paths"].push_back(seen_from(path, more));
     }
-    if (!scene.plugin.empty()) {
-        json["plugin"] = scene.plugin;
+    if (!plugin.empty()) {
+        json["plugin"] = plugin;
     }
-    if (!scene.plugin_options.empty()) {
-        json["options"] = SceneJson::parse(scene.plugin_options);
+    if (!options.empty()) {
+        json["options"] = SceneJson::parse(options);
     }
+    return json;
+}
+
+SceneJson further_volume_json(const SceneVolume& volume, const std::string& path) {
+    SceneJson json = SceneJson::object();
+    if (!volume.path.empty()) {
+        json = files_json(volume.path, volume.more_files, volume.plugin, volume.plugin_options, path);
+    }
+    set(json, "time_step", volume.time_step);
+    json["offset"] = volume.offset;
+    set(json, "field", volume.field);
+    return json;
+}
+
+SceneJson volume_json(const Scene& scene, const std::string& path) {
+    SceneJson json = files_json(scene.volume, scene.more_files, scene.plugin, scene.plugin_options, path);
     if (scene.time_step != 0) {
         json["time_step"] = scene.time_step;
     }
@@ -89,6 +106,9 @@ SceneJson scene_json(const Scene& scene, const std::string& path) {
     json["version"] = 1;
     if (!scene.volume.empty()) {
         json["volume"] = volume_json(scene, path);
+    }
+    for (const SceneVolume& volume : scene.volumes) {
+        json["volumes"].push_back(further_volume_json(volume, path));
     }
     if (scene.warp) {
         json["warp"] = warp_json(*scene.warp);

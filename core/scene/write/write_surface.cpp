@@ -111,6 +111,12 @@ void add_streamlines(SceneJson& json, const SceneStreamlines& lines) {
     set(json, "length", lines.length);
     json["tolerance"] = lines.tolerance;
     set(json, "radius", lines.radius);
+    if (lines.times) {
+        json["type"] = "pathlines";
+        set(json, "start_time", lines.times->start);
+        set(json, "end_time", lines.times->end);
+        json["interpolation"] = lines.times->is_linear ? "linear" : "cubic";
+    }
 }
 
 void add_arrows(SceneJson& json, const SceneArrows& arrows) {

@@ -86,6 +86,14 @@ struct HandlesOf {
     }
 };
 
+std::vector<Handle> handles_of_seeds(const std::vector<Vector3>& seeds) {
+    std::vector<Handle> handles;
+    for (const Vector3& seed : seeds) {
+        handles.push_back({Handle::Kind::free, seed, {}, std::nullopt, "Drag: move the seed of a line", "seed"});
+    }
+    return handles;
+}
+
 /** Drags one of these handles to a position. */
 struct MovedHandle {
     const VolumeFacts& volume;
@@ -157,7 +165,11 @@ std::vector<Handle> handles_of(const Scene& scene, const ItemId& item, const Vol
     if (item.kind != ItemKind::surface || !scene.surfaces[item.index].is_shown) {
         return {};
     }
-    return std::visit(HandlesOf{volume}, scene.surfaces[item.index].geometry);
+    const SceneSurface& surface = scene.surfaces[item.index];
+    if (surface.streamlines) {
+        return handles_of_seeds(surface.streamlines->seeds);
+    }
+    return std::visit(HandlesOf{volume}, surface.geometry);
 }
 
 Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
@@ -187,7 +199,12 @@ Scene with_moved_handle(const Scene& scene, const ItemId& item, const VolumeFact
         result.lighting->lights[item.index].vector = position;
         return result;
     }
-    std::visit(MovedHandle{volume, handle, position}, result.surfaces[item.index].geometry);
+    SceneSurface& surface = result.surfaces[item.index];
+    if (surface.streamlines) {
+        surface.streamlines->seeds[handle] = position;
+        return result;
+    }
+    std::visit(MovedHandle{volume, handle, position}, surface.geometry);
     return result;
 }
 

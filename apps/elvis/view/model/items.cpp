@@ -54,6 +54,9 @@ struct Detail {
 };
 
 std::string detail(const SceneSurface& surface) {
+    if (surface.streamlines && surface.name.empty()) {
+        return surface.streamlines->flow;
+    }
     return surface.name.empty() ? std::visit(Detail(), surface.geometry) : surface.name;
 }
 
@@ -104,6 +107,8 @@ SurfaceGeometry new_geometry(const VolumeFacts& volume, NewItem item, double val
         isosurfaces.values = {value};
         return isosurfaces;
     }
+    case NewItem::streamlines:
+        return CutShape(TubeSurface{});
     default:
         return BoundaryFaces{};
     }
@@ -115,6 +120,9 @@ SceneSurface new_surface(const VolumeFacts& volume, NewItem item, double value) 
     if (item == NewItem::wireframe) {
         surface.color_map = uniform_color_map({0, 0, 0});
         surface.is_lit = false;
+    }
+    if (item == NewItem::streamlines) {
+        surface.streamlines = SceneStreamlines{flows_of(volume).front()};
     }
     return surface;
 }
@@ -145,8 +153,10 @@ bool exists(const Scene& scene, const ItemId& item) {
 
 std::string item_kind_name(const Scene& scene, const ItemId& item) {
     switch (item.kind) {
-    case ItemKind::surface:
-        return elvis::kind_name(scene.surfaces[item.index].geometry);
+    case ItemKind::surface: {
+        const SceneSurface& surface = scene.surfaces[item.index];
+        return surface.streamlines && surface.streamlines->times ? "pathlines" : elvis::kind_name(surface.geometry);
+    }
     case ItemKind::volume:
         return "volume";
     default: {
@@ -249,10 +259,37 @@ const std::vector<NewItemInfo>& new_items() {
         {NewItem::elements, "Elements", "Faces of elements that meet conditions"},
         {NewItem::wireframe, "Wireframe", "Curved edges of elements"},
         {NewItem::isosurface, "Isosurface", "Where the field takes given values"},
+        {NewItem::streamlines, "Streamlines", "Curves that are everywhere tangent to a vector field, as tubes"},
         {NewItem::volume, "Volume", "The volume itself, as light that it emits and absorbs"},
         {NewItem::directional_light, "Directional light", "Light from far away"},
         {NewItem::point_light, "Point light", "Light from a place"}};
     return list;
+}
+
+std::vector<std::string> flows_of(const VolumeFacts& volume) {
+    std::vector<std::string> flows, made;
+    for (const FieldInfo& field : volume.fields) {
+        if (field.n_components == 3 || (field.n_components == 2 && volume.dimension == 2)) {
+            flows.push_back(field.name);
+        }
+        if (field.n_components == 3) {
+            made.push_back("curl(" + field.name + ")");
+        } else if (field.n_components == 1) {
+            made.push_back("grad(" + field.name + ")");
+        }
+    }
+    flows.insert(flows.end(), made.begin(), made.end());
+    return flows;
+}
+
+std::vector<std::string> displacements_of(const VolumeFacts& volume) {
+    std::vector<std::string> names;
+    for (const FieldInfo& field : volume.fields) {
+        if (field.n_components == 3 || (volume.dimension == 2 && field.n_components <= 2)) {
+            names.push_back(field.name);
+        }
+    }
+    return names;
 }
 
 bool can_add(const Scene& scene, const VolumeFacts& volume, NewItem item) {
@@ -264,6 +301,9 @@ bool can_add(const Scene& scene, const VolumeFacts& volume, NewItem item) {
     }
     if (item == NewItem::boundary || item == NewItem::elements || item == NewItem::wireframe) {
         return volume.has_faces;
+    }
+    if (item == NewItem::streamlines) {
+        return !flows_of(volume).empty();
     }
     return item != NewItem::volume || !scene.volume_rendering;
 }

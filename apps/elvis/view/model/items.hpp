@@ -53,6 +53,7 @@ enum class NewItem {
     elements,
     wireframe,
     isosurface,
+    streamlines,
     volume,
     directional_light,
     point_light
@@ -63,6 +64,10 @@ struct NewItemInfo {
     const char* help;
 };
 const std::vector<NewItemInfo>& new_items();
+/** Vector fields that lines can follow, and expressions made of fields; the latter last. */
+std::vector<std::string> flows_of(const VolumeFacts& volume);
+/** Fields that can displace the volume. */
+std::vector<std::string> displacements_of(const VolumeFacts& volume);
 /** Whether a volume has what it takes, and the scene room for it. */
 bool can_add(const Scene& scene, const VolumeFacts& volume, NewItem item);
 /** Places it sensibly in the volume's bounds. `middle`: a value of the scene's field, for isosurfaces. */

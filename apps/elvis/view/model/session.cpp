@@ -1,10 +1,13 @@
 #include "session.hpp"
 #include "first_scene.hpp"
 
+#include <apps/elvis/render/output_endings.hpp>
+
 #include <core/base/error.hpp>
 #include <core/scene/surface_distance.hpp>
 #include <core/scene/write/write_scene.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace elvis::view {
@@ -13,6 +16,12 @@ namespace {
 
 /** A file that is not there: paths of scenes are seen from the working directory. */
 constexpr const char* no_file = "scene";
+
+/** A number that stands for a field or expression: of a vector its magnitude. */
+std::string number_text(const data& volume, const std::string& field) {
+    const elvis_string name = field.c_str();
+    return volume.count_values(&name, 1) == 1 ? field : std::string("norm(").append(field).append(")");
+}
 
 nlohmann::json device_of(const context& library) { return nlohmann::json::parse(library.describe_device()); }
 
@@ -47,6 +56,7 @@ VolumeFacts Session::open(const Scene& scene) {
         }
         data opened = m_library.open(files, scene.plugin, scene.plugin_options);
         opened.prepare(library_scene(scene));
+        m_displaced.reset();
         m_data = std::move(opened);
         m_key = std::move(key);
     }
@@ -58,6 +68,21 @@ const data& Session::opened() const {
         throw Error("no volume is open");
     }
     return *m_data;
+}
+
+const data& Session::shown(const Scene& scene) {
+    if (!scene.warp) {
+        m_displaced.reset();
+        return opened();
+    }
+    auto how = detail::sized<elvis_warp>();
+    how.time_step = scene.time_step;
+    how.field = scene.warp->field.c_str();
+    how.imaginary = scene.warp->imaginary ? scene.warp->imaginary->c_str() : nullptr;
+    how.factor = scene.warp->factor;
+    how.phase = scene.warp->phase;
+    m_displaced = opened().warp(how, m_watch);
+    return *m_displaced;
 }
 
 elvis::scene Session::library_scene(const Scene& scene) const {
@@ -90,7 +115,8 @@ std::vector<std::string> Session::save_picture(const Scene& scene, const std::st
     auto options = detail::sized<elvis_render_options>();
     options.flags = ELVIS_RENDER_COLOR_ONLY;
     const elvis::picture drawn = opened().render(library_scene(scene), options);
-    drawn.write_png(path, static_cast<std::uint32_t>(bits));
+    const auto channel_bits = static_cast<std::uint32_t>(bits);
+    commands::is_svg(path) ? drawn.write_svg(path, channel_bits) : drawn.write_png(path, channel_bits);
     std::vector<std::string> warnings;
     for (const elvis::picture::remark& remark : drawn.remarks()) {
         if (remark.is_warning) {
@@ -101,7 +127,7 @@ std::vector<std::string> Session::save_picture(const Scene& scene, const std::st
 }
 
 FieldRange Session::range(const Scene& scene, const std::optional<std::string>& field) {
-    const elvis_range found = opened().range(text_of(scene, field), scene.time_step);
+    const elvis_range found = shown(scene).range(text_of(scene, field), scene.time_step);
     return {found.minimum, found.maximum};
 }
 
@@ -109,6 +135,50 @@ Scene Session::first_scene(const std::string& path) { return view::first_scene(m
 
 Picked Session::pick(const Scene& scene, const PicturePoint& place) {
     return picked_of(nlohmann::json::parse(opened().pick(library_scene(scene), place[0], place[1])));
+}
+
+LineAnswer Session::along(const Scene& scene, const LineProbe& line) {
+    commands::SampleWishes wishes;
+    wishes.fields = {text_of(scene, line.field ? line.field : scene.field)};
+    wishes.time_step = scene.time_step;
+    return answer_of(
+        line, commands::sample(shown(scene), commands::points_along({line.from, line.to}, n_line_points), wishes, m_watch));
+}
+
+Numbers Session::numbers(const Scene& scene, const NumbersQuestion& question, const std::function<bool()>& is_stopped) {
+    Numbers row;
+    row.question = question;
+    row.is_done = true;
+    try {
+        const data& volume = shown(scene);
+        const std::string field = number_text(volume, with_distances(question.field, scene.surfaces));
+        if (question.domain == ELVIS_DOMAIN_VOLUME) {
+            row.extrema = volume.range(field, question.time_step);
+        }
+        std::vector<elvis_string> groups;
+        for (const std::string& group : question.groups) {
+            groups.push_back(group.c_str());
+        }
+        auto wanted = detail::sized<elvis_integration>();
+        wanted.domain = question.domain;
+        wanted.field = field.c_str();
+        wanted.groups = groups.data();
+        wanted.n_groups = static_cast<std::uint32_t>(groups.size());
+        wanted.time_step = question.time_step;
+        std::ranges::copy(question.plane, wanted.plane);
+        std::string level_field;
+        if (question.domain == ELVIS_DOMAIN_ISOSURFACE) {
+            level_field = number_text(volume, with_distances(question.level_field, scene.surfaces));
+            wanted.level_field = level_field.c_str();
+            wanted.isovalue = question.isovalue;
+        }
+        row.integral = volume.integrate(wanted, {{}, [&] { return m_control.is_cancelled() || is_stopped(); }});
+    } catch (const cancelled&) {
+        throw;
+    } catch (const std::exception& error) {
+        row.error = error.what();
+    }
+    return row;
 }
 
 std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece) {

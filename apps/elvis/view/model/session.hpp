@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include "line_probe.hpp"
+#include "numbers.hpp"
 #include "pick.hpp"
 #include "picture.hpp"
 #include "volume_facts.hpp"
@@ -16,6 +18,7 @@
 #include <elvis/elvis.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,12 +58,18 @@ public:
     FieldRange range(const Scene& scene, const std::optional<std::string>& field);
     /** What is seen at a place of the scene's picture. */
     Picked pick(const Scene& scene, const PicturePoint& place);
+    /** Fields along a line, at the scene's time step. */
+    LineAnswer along(const Scene& scene, const LineProbe& line);
+    /** One row; throws cancelled if it is stopped. Any thread may be asked whether it is. */
+    Numbers numbers(const Scene& scene, const NumbersQuestion& question, const std::function<bool()>& is_stopped);
     /** Values of a field at the points of one piece of ELVIS_SAMPLE_PIECES. */
     std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece);
 
 private:
     elvis::scene library_scene(const Scene& scene) const;
     const data& opened() const;
+    /** What the scene shows of it: displaced, if it has a warp. */
+    const data& shown(const Scene& scene);
     std::string text_of(const Scene& scene, const std::optional<std::string>& field) const;
 
     context m_library;
@@ -68,6 +77,7 @@ private:
     task m_watch{{}, [this] { return m_control.is_cancelled(); }};
     std::string m_key;
     std::optional<data> m_data;
+    std::optional<data> m_displaced;
 };
 
 } // namespace elvis::view

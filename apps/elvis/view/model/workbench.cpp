@@ -6,6 +6,7 @@
 #include <core/base/error.hpp>
 #include <core/scene/write/write_scene.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -89,6 +90,11 @@ void Workbench::open_scene(Scene scene, const std::string& file, const std::stri
             m_ranges.clear();
             m_histograms.clear();
             m_picked.reset();
+            line.reset();
+            m_line_answer.reset();
+            m_line_key.clear();
+            stop_numbers();
+            m_numbers.clear();
             m_picture = {};
             m_stage = FrameStage::none;
             say(Message::Kind::info,
@@ -122,7 +128,7 @@ void Workbench::save_scene(const std::string& path) {
 
 void Workbench::save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits) {
     try {
-        commands::need_picture_ending("the picture", path);
+        commands::need_still_ending("the picture", path);
     } catch (const std::exception& error) {
         say(Message::Kind::error, error.what());
         return;
@@ -163,9 +169,107 @@ void Workbench::pick(const PicturePoint& place) {
         [this](const std::string& error) { say(Message::Kind::error, error); });
 }
 
+const LineAnswer* Workbench::line_answer() {
+    if (!line || !m_model.volume()) {
+        return nullptr;
+    }
+    std::string key = field_key(line->field ? line->field : m_model.scene().field);
+    for (const Vector3& end : {line->from, line->to}) {
+        key.append(reinterpret_cast<const char*>(end.data()), sizeof end);
+    }
+    // One question at a time: while the hand drags an end, places that it has left are not asked.
+    if (key != m_line_key && !m_is_asking_line) {
+        m_line_key = key;
+        m_is_asking_line = true;
+        const auto take = [this, number = m_volume_number](LineAnswer answer) {
+            m_is_asking_line = false;
+            if (number == m_volume_number) {
+                m_line_answer = std::move(answer);
+            }
+        };
+        m_worker.post(
+            "following the line",
+            [scene = m_model.scene(), asked = *line, take](Session& session) -> FrameWorker::Answer {
+                return [take, answer = session.along(scene, asked)] { take(answer); };
+            },
+            [take, asked = *line](const std::string& error) {
+                LineAnswer answer;
+                answer.line = asked;
+                answer.error = error;
+                take(std::move(answer));
+            });
+    }
+    return m_line_answer ? &*m_line_answer : nullptr;
+}
+
+void Workbench::find_numbers() {
+    stop_numbers();
+    m_numbers.clear();
+    if (!m_model.volume()) {
+        return;
+    }
+    for (NumbersQuestion& question : questions_of(m_model.scene(), *m_model.volume())) {
+        m_numbers.push_back({std::move(question), {}, {}, {}, false});
+    }
+    if (!m_numbers.empty()) {
+        m_is_searching = true;
+        find_row(0, m_model.scene());
+    }
+}
+
+void Workbench::stop_numbers() {
+    ++m_numbers_search;
+    m_is_searching = false;
+}
+
+bool Workbench::is_finding_numbers() const {
+    return m_is_searching && std::ranges::any_of(m_numbers, [](const Numbers& row) { return !row.is_done; });
+}
+
+bool Workbench::has_present_numbers() const {
+    if (!m_model.volume()) {
+        return false;
+    }
+    const std::vector<NumbersQuestion> wanted = questions_of(m_model.scene(), *m_model.volume());
+    return std::ranges::equal(m_numbers, wanted, {}, &Numbers::question);
+}
+
+void Workbench::find_row(std::size_t row, const Scene& scene) {
+    const std::uint64_t search = m_numbers_search;
+    const auto take = [this, row, scene, search](const Numbers& found) {
+        if (search != m_numbers_search) {
+            return;
+        }
+        m_numbers[row] = found;
+        if (row + 1 < m_numbers.size()) {
+            find_row(row + 1, scene);
+        }
+    };
+    m_worker.post_later(
+        "integrating",
+        [this, scene, question = m_numbers[row].question, row, search, take](Session& session) -> FrameWorker::Answer {
+            // A picture that is wanted does not wait: the row is begun again after it.
+            const auto is_stopped = [this, search] { return search != m_numbers_search || m_worker.drawing().has_value(); };
+            try {
+                return [take, found = session.numbers(scene, question, is_stopped)] { take(found); };
+            } catch (const cancelled&) {
+                return [this, row, scene, search] {
+                    if (search == m_numbers_search) {
+                        find_row(row, scene);
+                    }
+                };
+            }
+        },
+        [](const std::string&) {}); // Rows hold their errors.
+}
+
 std::string Workbench::field_key(const std::optional<std::string>& field) const {
     const Scene& scene = m_model.scene();
     std::string key = std::to_string(scene.time_step);
+    if (scene.warp) {
+        // Derivatives are those in the displaced coordinates.
+        key += scene_json(scene, "scene")["warp"].dump();
+    }
     const std::string text = field.value_or("");
     // Distances are to surfaces of the scene, which may move.
     if (text.find("distance") != std::string::npos) {

@@ -10,6 +10,7 @@
 #include "histogram.hpp"
 #include "model.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <functional>
@@ -54,6 +55,19 @@ public:
     /** What is seen at a place of the picture. */
     void pick(const PicturePoint& place);
     const std::optional<Picked>& picked() const { return m_picked; }
+
+    /** A line along which a field is shown; none at first, and none of another volume. */
+    std::optional<LineProbe> line;
+    /** Along the line, or along where it was a moment ago; asked for when it is not known, and nothing until then. */
+    const LineAnswer* line_answer();
+
+    /** Begins to find integrals and extrema of what is shown, row by row, when nothing else is to be done. */
+    void find_numbers();
+    void stop_numbers();
+    const std::vector<Numbers>& numbers() const { return m_numbers; }
+    bool is_finding_numbers() const;
+    /** The scene asks for the same rows still. */
+    bool has_present_numbers() const;
 
     /** Of a field or expression at the present time step; asked for when it is not known yet, and nothing until then. */
     std::optional<FieldRange> range(const std::optional<std::string>& field);
@@ -102,6 +116,7 @@ private:
     void sample(const std::optional<std::string>& field, const std::string& key, unsigned piece);
     /** `asks`: before a foreign file is converted. */
     void open_scene(Scene scene, const std::string& file, const std::string& path, bool asks = true);
+    void find_row(std::size_t row, const Scene& scene);
     std::string field_key(const std::optional<std::string>& field) const;
     void take(DrawAnswer answer, double showing_milliseconds);
     void take(const ConversionResult& result);
@@ -119,6 +134,14 @@ private:
     std::optional<Picked> m_picked;
     std::map<std::string, std::optional<FieldRange>> m_ranges;
     std::map<std::string, std::optional<Histogram>> m_histograms;
+    /** What the answer is of: the line, the time step, the warp. */
+    std::string m_line_key;
+    bool m_is_asking_line = false;
+    std::optional<LineAnswer> m_line_answer;
+    std::vector<Numbers> m_numbers;
+    /** Grows with each search: rows of another one are dropped, and not searched on. */
+    std::atomic<std::uint64_t> m_numbers_search = 0;
+    bool m_is_searching = false;
     /** Answers to questions about volumes that are no longer open are dropped. */
     std::uint64_t m_volume_number = 0;
 

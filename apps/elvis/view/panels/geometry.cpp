@@ -314,7 +314,7 @@ bool show_file(const std::string& path) {
 bool edit(Ui&, const MeshSurface& surface) { return show_file(surface.mesh->path); }
 
 bool edit(Ui&, const BezierSurface& surface) { return show_file(surface.mesh->path); }
-/** What they are about is edited in the scene file. */
+/** See streamlines.cpp. */
 bool edit(Ui&, const TubeSurface&) { return false; }
 bool edit(Ui&, const ArrowSurface&) { return false; }
 

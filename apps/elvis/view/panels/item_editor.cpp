@@ -26,8 +26,9 @@ bool edit_looks(Ui& ui, SceneSurface& surface) {
                                   "Field or expression that colours it; by default the one that has the values") ||
                      is_changed;
     }
-    const bool is_plain = is_isosurface && surface.color_map && surface.color_map->points.size() == 1;
-    if (is_isosurface) {
+    const bool may_be_plain = is_isosurface || surface.streamlines;
+    const bool is_plain = may_be_plain && surface.color_map && surface.color_map->points.size() == 1;
+    if (may_be_plain) {
         bool has_color = is_plain;
         if (check(ui, "surface/plain", "One colour", has_color, "In place of a colour map")) {
             surface.color_map = has_color ? std::optional(uniform_color_map({0.9, 0.6, 0.2})) : std::nullopt;
@@ -91,7 +92,7 @@ bool edit_clip(Ui& ui, SceneSurface& surface) {
 bool edit_surface(Ui& ui, SceneSurface& surface) {
     bool is_changed =
         text(ui, "surface/name", "Name", surface.name, "By which expressions speak of it: distance(NAME)", "none");
-    is_changed = edit_geometry(ui, surface) || is_changed;
+    is_changed = (surface.streamlines ? edit_streamlines(ui, *surface.streamlines) : edit_geometry(ui, surface)) || is_changed;
     ImGui::Separator();
     is_changed = edit_looks(ui, surface) || is_changed;
     is_changed =

@@ -17,6 +17,10 @@ void draw_item_editor(Ui& ui);
 void draw_scene_editor(Ui& ui);
 void draw_camera(Ui& ui);
 void draw_picked(Ui& ui);
+/** A line through the volume, and the plot of a field along it. */
+void draw_line_probe(Ui& ui);
+/** Integrals and extrema of what is shown. */
+void draw_numbers(Ui& ui);
 void draw_statistics(Ui& ui);
 /** Which picture is on the screen, and what is being done. */
 void draw_status(Ui& ui);
@@ -36,7 +40,9 @@ bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array
 /** As the reader of scenes asks for: its width is not lost in rounding. */
 bool is_peak(const ScenePeak& peak);
 bool edit_geometry(Ui& ui, SceneSurface& surface);
+bool edit_streamlines(Ui& ui, SceneStreamlines& lines);
 bool edit_light(Ui& ui, Light& light);
+bool edit_warp(Ui& ui, std::optional<SceneWarp>& warp);
 
 /** Keys and what they do, for people. */
 const std::vector<std::pair<const char*, const char*>>& shortcut_texts();

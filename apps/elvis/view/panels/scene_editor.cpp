@@ -109,6 +109,8 @@ void draw_scene_editor(Ui& ui) {
         ImGui::Separator();
         did("light", edit_lighting(ui, scene));
         ImGui::Separator();
+        did("displacement", edit_warp(ui, scene.warp));
+        ImGui::Separator();
         did("annotation", edit_annotation(ui, scene));
         ImGui::Separator();
         did("picture", edit_image(ui, scene));

@@ -231,6 +231,8 @@ private:
         tab("Scene", "Field, colours, lines and light of everything that has none of its own", draw_scene_editor, false);
         tab("Camera", "Where the picture is seen from", draw_camera, false);
         tab("Point", "What is known of the point that was clicked on", draw_picked, is_new);
+        tab("Line", "A field along a straight line through the volume, as a plot", draw_line_probe, false);
+        tab("Numbers", "Integrals and extrema of what is shown", draw_numbers, false);
         tab("Picture", "What drawing the picture took, and what is not certain in it", draw_statistics, false);
         ImGui::EndTabBar();
     }

@@ -23,6 +23,23 @@ const char* stage_name(FrameStage stage) {
     return "none";
 }
 
+nlohmann::ordered_json line_json(Workbench& bench) {
+    const LineAnswer* const answer = bench.line_answer();
+    if (!bench.line || answer == nullptr) {
+        return nullptr;
+    }
+    nlohmann::ordered_json json = {{"from", answer->line.from}, {"to", answer->line.to}, {"error", answer->error}};
+    json["breaks"] = answer->breaks;
+    json["table"] = table_text(*answer);
+    return json;
+}
+
+nlohmann::ordered_json numbers_json(const Workbench& bench) {
+    return {{"finding", bench.is_finding_numbers()},
+            {"present", bench.has_present_numbers()},
+            {"table", bench.numbers().empty() ? std::string() : table_text(bench.numbers())}};
+}
+
 } // namespace
 
 std::string description(Ui& ui) {
@@ -47,6 +64,8 @@ std::string description(Ui& ui) {
         json["items"].push_back(item_label(model.scene(), item));
     }
     json["picked"] = bench.picked() ? bench.picked()->text : std::string();
+    json["line"] = line_json(bench);
+    json["numbers"] = numbers_json(bench);
     json["messages"] = nlohmann::ordered_json::array();
     for (const Message& message : bench.messages()) {
         json["messages"].push_back(message.text);

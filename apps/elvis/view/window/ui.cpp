@@ -232,51 +232,27 @@ bool choice(Ui& ui, const std::string& name, const char* label, std::size_t& cho
     return is_changed;
 }
 
-bool field_choice(Ui& ui, const std::string& name, const char* label, std::optional<std::string>& field, bool may_be_scenes,
-                  const char* help) {
+bool offered_text(Ui& ui, const std::string& name, const char* label, std::string& value,
+                  const std::vector<std::string>& offers, const char* help) {
     bool is_changed = false;
     ImGui::PushID(name.c_str());
-    const std::vector<FieldInfo>& fields = ui.model().volume()->fields;
-    const std::string first = fields.empty() ? std::string() : fields.front().name;
-    const std::string shown = field ? *field : may_be_scenes ? "(the scene's)" : first;
     const float arrow = ImGui::GetFrameHeight();
-    std::string typed = shown;
+    std::string typed = value;
     ImGui::SetNextItemWidth(ImGui::CalcItemWidth() - arrow);
     if (text(ui, name, "##text", typed, help) && !typed.empty()) {
-        field = typed;
+        value = typed;
         is_changed = true;
     }
     ImGui::SameLine(0, 0);
     const bool is_open = ImGui::BeginCombo("##list", nullptr, ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
     explain(ui, name + ".list", is_open ? "" : "Fields of the volume, and expressions made of them");
     if (is_open) {
-        const auto offer = [&](const std::optional<std::string>& value, const std::string& words) {
-            if (ImGui::Selectable(words.c_str(), value == field) && value != field) {
-                field = value;
+        for (const std::string& offer : offers) {
+            if (ImGui::Selectable(offer.c_str(), offer == value) && offer != value) {
+                value = offer;
                 is_changed = true;
             }
-            explain(ui, name + "/" + words, "");
-        };
-        if (may_be_scenes) {
-            offer(std::nullopt, "(the scene's)");
-        }
-        for (const FieldInfo& info : fields) {
-            offer(info.name, info.name);
-            for (std::uint32_t c = 0; info.n_components > 1 && c < info.n_components; ++c) {
-                const std::string component = component_name(info.name, c);
-                offer(component, component);
-            }
-        }
-        for (const FieldInfo& info : fields) {
-            if (info.n_components == 3) {
-                offer("norm(curl(" + info.name + "))", "norm(curl(" + info.name + "))");
-                offer("q_criterion(" + info.name + ")", "q_criterion(" + info.name + ")");
-            } else if (info.n_components == 1) {
-                offer("norm(grad(" + info.name + "))", "norm(grad(" + info.name + "))");
-            }
-        }
-        for (const char* expression : {"scaled_jacobian", "order", "element"}) {
-            offer(expression, expression);
+            explain(ui, name + "/" + offer, "");
         }
         ImGui::EndCombo();
     }
@@ -284,6 +260,38 @@ bool field_choice(Ui& ui, const std::string& name, const char* label, std::optio
     ImGui::TextUnformatted(label);
     ImGui::PopID();
     return is_changed;
+}
+
+bool field_choice(Ui& ui, const std::string& name, const char* label, std::optional<std::string>& field, bool may_be_scenes,
+                  const char* help) {
+    const std::string of_scene = "(the scene's)";
+    const std::vector<FieldInfo>& fields = ui.model().volume()->fields;
+    std::vector<std::string> offers;
+    if (may_be_scenes) {
+        offers.push_back(of_scene);
+    }
+    for (const FieldInfo& info : fields) {
+        offers.push_back(info.name);
+        for (std::uint32_t c = 0; info.n_components > 1 && c < info.n_components; ++c) {
+            offers.push_back(component_name(info.name, c));
+        }
+    }
+    for (const FieldInfo& info : fields) {
+        if (info.n_components == 3) {
+            offers.push_back("norm(curl(" + info.name + "))");
+            offers.push_back("q_criterion(" + info.name + ")");
+        } else if (info.n_components == 1) {
+            offers.push_back("norm(grad(" + info.name + "))");
+        }
+    }
+    offers.insert(offers.end(), {"scaled_jacobian", "order", "element"});
+    const std::string first = fields.empty() ? std::string() : fields.front().name;
+    std::string shown = field ? *field : may_be_scenes ? of_scene : first;
+    if (!offered_text(ui, name, label, shown, offers, help)) {
+        return false;
+    }
+    field = may_be_scenes && shown == of_scene ? std::nullopt : std::optional(shown);
+    return true;
 }
 
 } // namespace elvis::view

@@ -49,6 +49,8 @@ struct Ui {
     bool wants_to_quit = false, has_leave_to_quit = false;
     /** Colours of panels have changed. */
     bool has_new_look = false;
+    /** The point of the line that is looked at in its plot. */
+    std::optional<Vector3> line_point{};
     /** Time steps go on by themselves. */
     bool is_playing = false;
     /** The hand is at work, outside of what ImGui knows. */
@@ -96,6 +98,9 @@ bool number_list(Ui& ui, const std::string& name, const char* label, std::vector
 /** One of a few words. */
 bool choice(Ui& ui, const std::string& name, const char* label, std::size_t& chosen, const std::vector<std::string>& words,
             const char* help);
+/** An expression that is typed, or one of those that are offered. */
+bool offered_text(Ui& ui, const std::string& name, const char* label, std::string& value,
+                  const std::vector<std::string>& offers, const char* help);
 /** A field of the volume, or an expression; with `may_be_scenes` also "as the scene". */
 bool field_choice(Ui& ui, const std::string& name, const char* label, std::optional<std::string>& field, bool may_be_scenes,
                   const char* help);

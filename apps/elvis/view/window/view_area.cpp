@@ -24,6 +24,18 @@ bool ViewArea::is_moving() const {
            (m_last_zoom >= 0 && ImGui::GetTime() - m_last_zoom < zoom_rest_seconds);
 }
 
+std::vector<Handle> ViewArea::handles(Ui& ui, const Scene& scene) const {
+    std::vector<Handle> all;
+    if (const std::optional<ItemId> item = ui.model().selection()) {
+        all = handles_of(scene, *item, *ui.model().volume());
+    }
+    if (ui.bench.line) {
+        const std::vector<Handle> ends = handles_of(*ui.bench.line);
+        all.insert(all.end(), ends.begin(), ends.end());
+    }
+    return all;
+}
+
 void ViewArea::begin_drag(Ui& ui, const PicturePoint& place) {
     m_dragged = 0;
     m_handle.reset();
@@ -35,15 +47,14 @@ void ViewArea::begin_drag(Ui& ui, const PicturePoint& place) {
     } else {
         m_drag = io.KeyShift ? Drag::pan : io.KeyCtrl ? Drag::roll : Drag::orbit;
     }
-    const std::optional<ItemId> item = ui.model().selection();
-    if (m_drag != Drag::orbit || !item) {
+    if (m_drag != Drag::orbit) {
         return;
     }
     const Camera camera = ui.model().camera();
-    const std::vector<Handle> handles = handles_of(ui.scene(), *item, *ui.model().volume());
+    m_handles_before = handles(ui, ui.scene());
     double nearest = 1.6 * handle_radius * ui.scale * m_pixels;
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-        if (const auto at = project(camera, m_size, handles[i].position)) {
+    for (std::size_t i = 0; i < m_handles_before.size(); ++i) {
+        if (const auto at = project(camera, m_size, m_handles_before[i].position)) {
             const double distance = std::hypot((*at)[0] - place[0], (*at)[1] - place[1]);
             if (distance < nearest) {
                 nearest = distance;
@@ -53,6 +64,21 @@ void ViewArea::begin_drag(Ui& ui, const PicturePoint& place) {
                 m_taken = place;
             }
         }
+    }
+}
+
+void ViewArea::drag_handle(Ui& ui, const PicturePoint& place) {
+    Model& model = ui.model();
+    const std::optional<ItemId> item = model.selection();
+    const std::size_t n_ends = ui.bench.line ? 2 : 0, n_of_item = m_handles_before.size() - n_ends;
+    const Vector3 position = dragged_to(m_handles_before[*m_handle], model.camera(), m_size, m_taken, place);
+    if (*m_handle >= n_of_item) {
+        ui.bench.line = with_moved_end(*ui.bench.line, *model.volume(), *m_handle - n_of_item, position);
+    } else if (item) {
+        Scene scene = with_moved_handle(m_before, *item, *model.volume(), *m_handle, position);
+        scene.camera = model.scene().camera;
+        scene.size = model.scene().size;
+        model.edit("move " + item_kind_name(scene, *item), std::move(scene));
     }
 }
 
@@ -73,18 +99,9 @@ void ViewArea::go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by) 
     case Drag::roll:
         model.set_camera(rolled(camera, 180 * by[0] / m_size.width));
         break;
-    case Drag::handle: {
-        const std::optional<ItemId> item = model.selection();
-        if (item && m_handle) {
-            const std::vector<Handle> handles = handles_of(m_before, *item, *model.volume());
-            const Vector3 position = dragged_to(handles[*m_handle], camera, m_size, m_taken, place);
-            Scene scene = with_moved_handle(m_before, *item, *model.volume(), *m_handle, position);
-            scene.camera = model.scene().camera;
-            scene.size = model.scene().size;
-            model.edit("move " + item_kind_name(scene, *item), std::move(scene));
-        }
+    case Drag::handle:
+        drag_handle(ui, place);
         break;
-    }
     case Drag::none:
         break;
     }
@@ -110,31 +127,57 @@ void ViewArea::draw_picked_point(Ui& ui) const {
     }
 }
 
-void ViewArea::draw_handles(Ui& ui) {
-    const std::optional<ItemId> item = ui.model().selection();
-    if (!item) {
+void ViewArea::draw_line(Ui& ui) const {
+    if (!ui.bench.line) {
         return;
     }
     const Camera camera = ui.model().camera();
+    const auto from = project(camera, m_size, ui.bench.line->from), to = project(camera, m_size, ui.bench.line->to);
     ImDrawList* list = ImGui::GetWindowDrawList();
-    const std::vector<Handle> handles = handles_of(ui.scene(), *item, *ui.model().volume());
+    if (from && to) {
+        list->AddLine(on_screen(*from), on_screen(*to), rgba(0, 0, 0), 4 * ui.scale);
+        list->AddLine(on_screen(*from), on_screen(*to), rgba(90, 200, 255), 2 * ui.scale);
+    }
+    const auto dot = [&](const Vector3& position, float radius, ImU32 color) {
+        if (const auto place = project(camera, m_size, position)) {
+            list->AddCircleFilled(on_screen(*place), radius + ui.scale, rgba(0, 0, 0));
+            list->AddCircleFilled(on_screen(*place), radius, color);
+        }
+    };
+    // Nor are those drawn of a place that the line has left.
+    constexpr std::size_t most_dots = 300;
+    const LineAnswer* const answer = ui.bench.line_answer();
+    if (answer != nullptr && answer->line == *ui.bench.line && answer->breaks.size() <= most_dots) {
+        for (const Vector3& place : answer->breaks) {
+            dot(place, 2 * ui.scale, rgba(90, 200, 255));
+        }
+    }
+    if (ui.line_point) {
+        dot(*ui.line_point, 5 * ui.scale, rgba(255, 255, 255));
+    }
+}
+
+void ViewArea::draw_handles(Ui& ui) {
+    const Camera camera = ui.model().camera();
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const std::vector<Handle> all = handles(ui, ui.scene());
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const float radius = handle_radius * ui.scale;
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-        const auto place = project(camera, m_size, handles[i].position);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto place = project(camera, m_size, all[i].position);
         if (!place) {
             continue;
         }
         const ImVec2 at = on_screen(*place);
-        if (handles[i].tied_to) {
-            if (const auto end = project(camera, m_size, *handles[i].tied_to)) {
+        if (all[i].tied_to) {
+            if (const auto end = project(camera, m_size, *all[i].tied_to)) {
                 list->AddLine(on_screen(*end), at, rgba(0, 0, 0), 4 * ui.scale);
                 list->AddLine(on_screen(*end), at, rgba(255, 200, 40), 2 * ui.scale);
             }
         }
     }
-    for (std::size_t i = 0; i < handles.size(); ++i) {
-        const auto place = project(camera, m_size, handles[i].position);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto place = project(camera, m_size, all[i].position);
         if (!place) {
             continue;
         }
@@ -143,9 +186,9 @@ void ViewArea::draw_handles(Ui& ui) {
         const bool is_held = m_drag == Drag::handle && m_handle == i;
         list->AddCircleFilled(at, radius + 2 * ui.scale, rgba(0, 0, 0, 180));
         list->AddCircleFilled(at, radius, is_held || is_near ? rgba(255, 255, 255) : rgba(255, 200, 40));
-        ui.places[std::string("handle/") + handles[i].name] = {at.x - radius, at.y - radius, at.x + radius, at.y + radius};
+        ui.places[std::string("handle/") + all[i].name] = {at.x - radius, at.y - radius, at.x + radius, at.y + radius};
         if (is_near && !is_held && m_drag == Drag::none && ImGui::IsItemHovered()) {
-            ImGui::SetTooltip("%s", handles[i].help);
+            ImGui::SetTooltip("%s", all[i].help);
         }
     }
 }
@@ -236,6 +279,7 @@ void ViewArea::draw(Ui& ui, float framebuffer_scale) {
         m_last_zoom = ImGui::GetTime();
     }
     draw_picked_point(ui);
+    draw_line(ui);
     draw_handles(ui);
     draw_stage(ui);
 }

@@ -25,6 +25,10 @@ private:
     enum class Drag { none, orbit, pan, zoom, roll, handle };
     void begin_drag(Ui& ui, const PicturePoint& place);
     void go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by);
+    /** Of the selected item, and then those of the line. */
+    std::vector<Handle> handles(Ui& ui, const Scene& scene) const;
+    void drag_handle(Ui& ui, const PicturePoint& place);
+    void draw_line(Ui& ui) const;
     void draw_handles(Ui& ui);
     void draw_picked_point(Ui& ui) const;
     /** A place of the picture, for ImGui. */
@@ -39,7 +43,9 @@ private:
     double m_dragged = 0; ///< pixels since the button went down
     double m_last_zoom = -1;
     std::optional<std::size_t> m_handle;
-    Scene m_before; ///< when a handle was taken
+    /** When a handle was taken. */
+    Scene m_before;
+    std::vector<Handle> m_handles_before;
     PicturePoint m_taken{};
 };
 

@@ -1,7 +1,7 @@
 /**
  * @file answers.h
- * What is asked of data without a picture: integrals, what a straight line meets, and streamlines. Rules and threads are those
- * of elvis.h. Everything is evaluated in double precision, in the true basis on the true geometry.
+ * What is asked of data without a picture: integrals, what a straight line meets, streamlines and pathlines. Rules and
+ * threads are those of elvis.h. Everything is evaluated in double precision, in the true basis on the true geometry.
  *
  *     elvis_integration wanted = {.struct_size = sizeof wanted, .domain = ELVIS_DOMAIN_BOUNDARY, .field = "u", .is_flux = 1};
  *     elvis_integral flux = {.struct_size = sizeof flux};
@@ -98,9 +98,11 @@ ELVIS_EXPORT elvis_result elvis_data_walk_line(elvis_data* data, const double fr
                                                const elvis_string* fields, uint32_t n_fields, uint32_t time_step,
                                                const elvis_task* task, char** text);
 
-/* ---- Streamlines -------------------------------------------------------------------------------------------------------- */
+/* ---- Streamlines and pathlines ------------------------------------------------------------------------------------------ */
 
-/** Curves that are everywhere tangent to a vector field. Released by elvis_lines_release. */
+/**
+ * Streamlines: curves that are everywhere tangent to a vector field at one time step. Or pathlines: the ways of points that
+ * move with a field that changes in time. Released by elvis_lines_release. */
 typedef struct elvis_lines elvis_lines;
 
 typedef uint32_t elvis_line_direction;
@@ -121,6 +123,20 @@ typedef uint32_t elvis_line_end;
 #define ELVIS_LINE_JUMP 4u
 /** The seed lies in no element: the line has no points. */
 #define ELVIS_LINE_NO_ELEMENT 5u
+/** Of a pathline: the end time, or the seed's; or no time step goes on. */
+#define ELVIS_LINE_TIME 6u
+
+typedef uint32_t elvis_time_interpolation;
+/** At a point of an element, the polynomial of degree 3 in time through the four nearest time steps, or all of less. */
+#define ELVIS_TIME_CUBIC 0u
+#define ELVIS_TIME_LINEAR 1u
+
+/** Bits of elvis_tracing.flags. */
+/** Pathlines: the field goes on from time step to time step; `time_step` is not used. */
+#define ELVIS_TRACE_PATHLINES 1u
+/** `start_time` is set, `end_time` is. */
+#define ELVIS_TRACE_START_TIME 2u
+#define ELVIS_TRACE_END_TIME 4u
 
 typedef struct elvis_tracing {
     uint32_t struct_size;
@@ -136,8 +152,15 @@ typedef struct elvis_tracing {
     const elvis_string* fields;
     /** Of a step's error, as a share of the diagonal of the bounds; 0: 1e-9. */
     double tolerance;
-    /** Of a line in each direction; 0: ten times the diagonal. */
+    /** Of a line in each direction; 0: of streamlines ten times the diagonal, of pathlines no limit. */
     double length;
+    /** ELVIS_TRACE_.. */
+    uint32_t flags;
+    elvis_time_interpolation interpolation;
+    /** When points are at their seeds; if it is not set: the first time step's time, the last one's if they go backward. */
+    double start_time;
+    /** Of one direction: till when, or backward since when, lines go; if it is not set: as far as time steps do. */
+    double end_time;
 } elvis_tracing;
 
 typedef struct elvis_lines_info {
@@ -147,6 +170,11 @@ typedef struct elvis_lines_info {
     uint64_t n_lines;
     /** Of all lines. */
     uint64_t n_points;
+    /**
+     * Of pathlines: how far linear and cubic interpolation in time are apart at most, as a share of a line's largest speed;
+     * negative where that is not known (two time steps only, streamlines).
+     */
+    double time_doubt;
 } elvis_lines_info;
 
 /** Arrays of the caller's; those that are NULL are not wanted. */
@@ -157,7 +185,10 @@ typedef struct elvis_line_arrays {
     uint64_t* first;
     /** n_lines each: why lines begin and end where they do. */
     elvis_line_end *begins, *ends;
-    /** n_points each, positions and xi 3 numbers a point: times and lengths from the seed on, negative upstream. */
+    /**
+     * n_points each, positions and xi 3 numbers a point. Lengths are from the seed on, negative upstream; so are times of
+     * streamlines, while those of pathlines are as time steps have them.
+     */
     double *positions, *times, *arc_lengths;
     /** Numbers of elements, and reference coordinates in them. */
     int64_t* elements;
@@ -167,8 +198,9 @@ typedef struct elvis_line_arrays {
 } elvis_line_arrays;
 
 /**
- * Streamlines, integrated in the reference coordinates of each element (Dormand and Prince, order 5) and handed over at faces.
- * Only of data whose plugin evaluates on the CPU, and whose elements are not cut.
+ * Streamlines or pathlines, integrated in the reference coordinates of each element (Dormand and Prince, order 5) and handed
+ * over at faces. Only of data whose plugin evaluates on the CPU, and whose elements are not cut. Values at points of pathlines
+ * are those at the points' times, interpolated in the same way.
  */
 ELVIS_EXPORT elvis_result elvis_data_trace(elvis_data* data, const elvis_tracing* tracing, const elvis_task* task,
                                            elvis_lines** lines);

@@ -505,6 +505,11 @@ ELVIS_EXPORT elvis_result elvis_picture_read(const elvis_picture* picture, elvis
                                              void* destination, ptrdiff_t row_stride, ptrdiff_t pixel_stride);
 /** The bytes of `elvis render`: `bits` is 8 or 16. The file appears whole or not at all. */
 ELVIS_EXPORT elvis_result elvis_picture_write_png(const elvis_picture* picture, elvis_string path, uint32_t bits);
+/**
+ * The picture as SVG: its pixels as a PNG that is written without annotation, `bits` a channel, and the annotation as shapes
+ * and text. The file appears whole or not at all. Since 0.2.
+ */
+ELVIS_EXPORT elvis_result elvis_picture_write_svg(const elvis_picture* picture, elvis_string path, uint32_t bits);
 /** The file of `elvis render --buffers` (HDF5). */
 ELVIS_EXPORT elvis_result elvis_picture_write_buffers(const elvis_picture* picture, elvis_string path);
 

@@ -192,6 +192,9 @@ public:
     void write_png(const std::string& path, std::uint32_t bits = 8) const {
         check(elvis_picture_write_png(get(), path.c_str(), bits));
     }
+    void write_svg(const std::string& path, std::uint32_t bits = 8) const {
+        check(elvis_picture_write_svg(get(), path.c_str(), bits));
+    }
     void write_buffers(const std::string& path) const { check(elvis_picture_write_buffers(get(), path.c_str())); }
     elvis_picture* get() const { return m_handle.get(); }
 
@@ -256,7 +259,7 @@ struct probed {
     std::vector<std::uint8_t> estimated;
 };
 
-/** Streamlines: see elvis_line_arrays, of which these are the arrays. */
+/** Streamlines or pathlines: see elvis_line_arrays, of which these are the arrays. */
 struct traced {
     std::vector<std::uint64_t> first;
     std::vector<elvis_line_end> begins, ends;
@@ -265,6 +268,8 @@ struct traced {
     std::vector<double> xi, values;
     /** A point's values. */
     std::uint32_t n_values = 0;
+    /** See elvis_lines_info. */
+    double time_doubt = -1;
 };
 
 /** A volume that is open. */
@@ -344,6 +349,7 @@ public:
         check(elvis_lines_get_info(handle, &info));
         traced all;
         all.n_values = info.n_values;
+        all.time_doubt = info.time_doubt;
         all.first.resize(info.n_lines + 1);
         all.begins.resize(info.n_lines);
         all.ends.resize(info.n_lines);
