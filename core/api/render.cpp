@@ -1,6 +1,9 @@
 #include "drawing.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
 
 namespace elvis::library {
 
@@ -18,6 +21,22 @@ void resize(Scene& scene, const elvis_render_options& options) {
         }
         scene.size = {options.width, options.height};
     }
+}
+
+/** Depths of what hides the volume; null where nothing does. */
+std::shared_ptr<const std::vector<double>> hidden_from(const Scene& scene, const elvis_render_options& options) {
+    if (options.hidden_from == nullptr) {
+        return nullptr;
+    }
+    if (!scene.volume_rendering || !scene.surfaces.empty() || scene.samples > 1) {
+        throw InvalidArgument("options", "hidden_from is for scenes with volume rendering, without surfaces and samples");
+    }
+    const std::size_t n_pixels = std::size_t{scene.size[0]} * scene.size[1];
+    auto depths = std::make_shared<std::vector<double>>(options.hidden_from, options.hidden_from + n_pixels);
+    if (std::ranges::any_of(*depths, [](double depth) { return std::isnan(depth); })) {
+        throw InvalidArgument("options", "hidden_from has a depth that is not a number");
+    }
+    return depths;
 }
 
 ScreenOptions screen_options(const elvis_screen_options& options) {
@@ -63,9 +82,10 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         const DataTask running(state, task);
         provide_glyphs(state, still);
         const Precision precision = precision_of(still);
-        *picture = new_picture(shown, precision,
-                               draw_still(still, state.volume, state.renderer(precision),
-                                          still_options(state, precision, known), state.control.get()));
+        StillOptions how = still_options(state, precision, known);
+        how.hidden_from = hidden_from(still, known);
+        *picture =
+            new_picture(shown, precision, draw_still(still, state.volume, state.renderer(precision), how, state.control.get()));
     });
 }
 

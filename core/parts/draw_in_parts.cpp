@@ -185,6 +185,7 @@ std::vector<std::byte> VolumeInParts::Impl::draw_own_light(const FrameRequest& r
     FrameRequest light = request;
     light.surfaces.clear();
     light.with_buffers = false;
+    light.gives_runs = true;
     light.hidden_from = std::make_shared<const std::vector<double>>(std::move(depths));
     std::vector<std::byte> bytes;
     for (const BarePart& part : bare_parts) {

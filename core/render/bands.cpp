@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -36,6 +38,11 @@ FrameRequest request_for(const FrameRequest& whole, const Rows& rows) {
     FrameRequest request = whole;
     request.height = rows.end - rows.first;
     request.part = {rows.first, whole.height};
+    if (whole.hidden_from) {
+        const auto all = std::span(*whole.hidden_from);
+        const auto own = all.subspan(std::size_t{rows.first} * whole.width, std::size_t{request.height} * whole.width);
+        request.hidden_from = std::make_shared<const std::vector<double>>(own.begin(), own.end());
+    }
     return request;
 }
 

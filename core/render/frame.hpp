@@ -79,11 +79,11 @@ struct FrameRequest {
     std::vector<Surface> surfaces;
     /** Light of the volume itself. */
     std::optional<VolumeRendering> volume;
-    /**
-     * Of a part of a volume, and without surfaces: depths in front of which light of the volume is wanted, one a pixel,
-     * infinite where nothing hides it. Frame::runs are then given in place of colours.
+    /** Without surfaces: depths in front of which light of the volume is wanted, one a pixel, infinite where nothing hides it.
      */
     std::shared_ptr<const std::vector<double>> hidden_from;
+    /** Of a part of a volume, with hidden_from: Frame::runs are given in place of colours. */
+    bool gives_runs = false;
     /** Surfaces show their colours as they are if absent. */
     std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
@@ -189,7 +189,7 @@ struct Frame {
     std::vector<std::int64_t> element; ///< element number as people know it; -1 where nothing was hit
     std::vector<double> normal;        ///< 3 a pixel, unit, towards the viewer; NaN where nothing was hit
     std::vector<std::uint32_t> flags;
-    /** Light of the volume, if FrameRequest::hidden_from is given: by pixel, and along each ray. */
+    /** Light of the volume, if FrameRequest::gives_runs: by pixel, and along each ray. */
     std::vector<LightRun> runs;
     /** What each channel of all light of a ray is off besides. */
     double color_error = 0;

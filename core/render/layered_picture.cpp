@@ -145,7 +145,11 @@ ViewStart LayeredPicture::start_of_view() const {
 }
 
 void LayeredPicture::draw(VolumePass& volume, const DeviceVolume& data) {
-    m_merge_pass.fill_empty();
+    if (m_request->hidden_from) {
+        m_merge_pass.hide_behind(*m_request->hidden_from);
+    } else {
+        m_merge_pass.fill_empty();
+    }
     volume.draw(rays_of(*m_request, nullptr, data), start_of_view(), m_merge_pass, m_request->sharing.rows, m_frame->counts);
 }
 

@@ -30,7 +30,7 @@ public:
     void draw(SurfaceDrawing& drawing, std::size_t index, std::uint32_t common_flags);
     /** Light of the volume, with its field, over and between all surfaces. */
     void draw(VolumePass& volume, const DeviceVolume& data);
-    /** The same in place of colours: FrameRequest::hidden_from. */
+    /** The same in place of colours: FrameRequest::gives_runs. */
     void give_runs(VolumePass& volume, const DeviceVolume& data);
     /** All surfaces are drawn, and no volume. */
     void finish();

@@ -152,7 +152,7 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, Frame& frame) {
     const DeviceTimer timer(device, false);
     times.compile_milliseconds += milliseconds_since(start);
 
-    if (request.hidden_from) {
+    if (request.gives_runs) {
         picture.give_runs(pass, data);
     } else {
         picture.draw(pass, data);

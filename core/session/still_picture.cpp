@@ -31,6 +31,7 @@ StillPicture draw_request(const Scene& scene, FrameRequest request, const Runtim
     still.request = std::move(request);
     still.request.with_buffers = options.with_buffers;
     still.request.sharing = options.sharing;
+    still.request.hidden_from = options.hidden_from;
     std::vector<Renderer*> renderers{&renderer};
     renderers.insert(renderers.end(), options.others.begin(), options.others.end());
     still.frame = render_in_bands(renderers, still.request, control);

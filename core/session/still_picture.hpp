@@ -11,6 +11,7 @@
 #include <core/scene/scene.hpp>
 #include <core/session/frame_remarks.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace elvis {
@@ -19,6 +20,7 @@ struct StillOptions {
     /** See FrameRequest. */
     bool with_buffers = true;
     Sharing sharing;
+    std::shared_ptr<const std::vector<double>> hidden_from;
     /** Of the same volume, opened again, on other devices: they draw some of the rows. */
     std::vector<Renderer*> others;
 };

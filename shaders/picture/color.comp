@@ -8,6 +8,9 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "arithmetic/finite.glsl"
 #include "picture/samples.glsl"
 // A kernel without light costs nothing for it; nor does one without lines, or planes that clip.
+#if CORE_IS_CLIPPED
+#include "picture/place_error.glsl"
+#endif
 #if CORE_IS_LIT
 #define CORE_LIGHTS_BINDING 6
 #include "picture/lighting.glsl"
@@ -59,16 +62,43 @@ elvis_vec3 core_position(uint pixel, elvis_real depth, out elvis_vec3 direction)
 }
 
 #if CORE_IS_CLIPPED
-// Whether that point is cut away.
-bool core_is_clipped(uint pixel, elvis_real depth) {
+// Whether that point is cut away, and whether rounding decides it.
+struct core_clipping {
+    bool is_cut, is_undecided;
+};
+
+elvis_real core_above_plane(uint pixel, elvis_vec4 plane) {
     elvis_vec3 direction;
-    const elvis_vec3 position = core_position(pixel, depth, direction);
-    bool is_clipped = false;
+    return dot(plane.xyz, core_position(pixel, core_samples[pixel].depth, direction)) + plane.w;
+}
+
+// How much that changes from the pixel to its neighbours on the surface, which tells how steep the surface is seen.
+elvis_real core_change_above_plane(uint pixel, elvis_vec4 plane, elvis_real above) {
+    const ivec2 place = ivec2(pixel % core_width, pixel / core_width), last = ivec2(core_width, core_n_pixels / core_width) - 1;
+    elvis_real change = elvis_real(0);
+    for (int i = 0; i < 4; ++i) {
+        const ivec2 there = clamp(place + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5)), ivec2(0), last);
+        const uint other = uint(there.y) * core_width + uint(there.x);
+        change = core_marks[other].owner != 0u ? max(change, abs(core_above_plane(other, plane) - above)) : change;
+    }
+    return change;
+}
+
+core_clipping core_clipping_at(uint pixel) {
+    elvis_vec3 direction;
+    const elvis_real depth = core_samples[pixel].depth;
+    const elvis_real reach = abs(depth) + length(core_position(pixel, depth, direction));
+    bool is_cut = false, is_surely_cut = false, is_open = false;
     for (uint i = 0u; i < core_n_clips; ++i) {
         const elvis_vec4 plane = core_special(9u + i);
-        is_clipped = is_clipped || dot(plane.xyz, position) + plane.w < elvis_real(0);
+        const elvis_real above = core_above_plane(pixel, plane);
+        const elvis_real error = CORE_HEIGHT_ERROR * reach * length(plane.xyz) +
+                                 CORE_PLACE_ERROR * core_change_above_plane(pixel, plane, above);
+        is_cut = is_cut || above < elvis_real(0);
+        is_surely_cut = is_surely_cut || above < -error;
+        is_open = is_open || abs(above) <= error;
     }
-    return is_clipped;
+    return core_clipping(is_cut, is_open && !is_surely_cut);
 }
 #endif
 
@@ -210,9 +240,12 @@ void main() {
         lines = core_lines_at(pixel);
 #endif
     }
+    uint doubt = 0u;
 #if CORE_IS_CLIPPED
     if (is_drawn) {
-        shown.is_seen = shown.is_seen && !core_is_clipped(pixel, core_samples[pixel].depth);
+        const core_clipping clipping = core_clipping_at(pixel);
+        shown.is_seen = shown.is_seen && !clipping.is_cut;
+        doubt = clipping.is_undecided ? (clipping.is_cut ? CORE_FLAG_UNDECIDED_IN_FRONT : CORE_FLAG_UNDECIDED) : 0u;
     }
 #endif
     shown.is_nan = !core_is_finite(shown.value) && !shown.is_outside;
@@ -245,7 +278,7 @@ void main() {
     const bool is_on_face = (owner & CORE_OWNER_ON_FACE) != 0u;
     const bool is_undecided = is_on_face && ((owner & CORE_OWNER_SHARED) == 0u || (owner & CORE_OWNER_AMBIGUOUS) != 0u);
     const bool is_overlap = (owner & CORE_OWNER_OVERLAP) != 0u;
-    const uint flags = core_common_flags | (shown.is_nan ? CORE_FLAG_NAN : 0u) |
+    const uint flags = core_common_flags | doubt | (shown.is_nan ? CORE_FLAG_NAN : 0u) |
                        (is_undecided || is_overlap ? CORE_FLAG_UNDECIDED : 0u) | (is_overlap ? CORE_FLAG_OVERLAP : 0u);
     if (is_drawn && flags != 0u) {
         core_marks[pixel].flags |= flags;

@@ -3,6 +3,7 @@
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "arithmetic/precision.glsl"
+#include "picture/place_error.glsl"
 #include "picture/samples.glsl"
 
 layout(set = 0, binding = 0, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
@@ -18,10 +19,6 @@ layout(push_constant) uniform core_parameters {
     uint core_is_above;
     uint core_takes_equal;
 };
-
-// Where a ray meets a surface is known to a few roundings of its depth, and a pixel is at least 1e-4 of the depth wide: to 1/256 of a pixel
-// in single precision, on surfaces of any inclination.
-#define CORE_PLACE_ERROR (elvis_real(65536) * CORE_ROUNDOFF)
 
 bool core_has_value(uint pixel) {
     return core_marks[pixel].owner != 0u && core_samples[pixel].number != CORE_NO_NUMBER;

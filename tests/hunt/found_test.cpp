@@ -429,4 +429,32 @@ TEST_CASE("Where the oracle says that a ray meets a face, it does") {
     CHECK(n_crossings > 10);
 }
 
+TEST_CASE("Where rounding decides whether a point is clipped the pixel is undecided") {
+    // The pixel's point lies 2e-7 above the plane, at a depth of 6.8.
+    const TemporaryFile file("clipped.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "waves", "shape": "prism", "elements": [3, 1, 3], "geometry_order": 2,
+                         "order": 3, "field": "polynomial"})",
+                     file.path());
+    FrameRequest request;
+    request.width = 800;
+    request.height = part_rows;
+    request.part = {128, 600};
+    request.camera.orthographic = true;
+    request.camera.eye = {5.431885167095755, 2.9420650823196084, -1.8778816359482224};
+    request.camera.look_at = {0.058309762443411496, 0.05218803718335407, -0.13758143991906957};
+    request.camera.up = {0.4736440479927679, -0.8807163651261537, 0.0};
+    request.camera.height = 1.7096661582548434;
+    Surface surface = colored_surface();
+    surface.geometry = BoundaryFaces{};
+    surface.clip = {{0.8056045145207483, -0.30142277736439294, -0.5100447779065335, 0.2965183885341587},
+                    {-0.6922101203138301, -0.031832525840174604, 0.7209936474295369, -0.1610136218459199}};
+    request.surfaces = {surface};
+    const RuntimeVolume volume = oracle::open_volume(file.path());
+    const Frame frame = Renderer(test::device(), volume, Precision::float32).render(request);
+    const std::size_t pixel = (139 - 128) * 800 + 776;
+    CHECK((frame.flags[pixel] & pixel_flag::undecided) != 0);
+    // One pixel in a hundred of those that the plane's edge goes through.
+    CHECK(frame.counts.undecided_pixels < 3);
+}
+
 } // namespace elvis::hunt

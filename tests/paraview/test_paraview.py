@@ -52,7 +52,7 @@ class ParaView(unittest.TestCase):
         with open(path + ".json") as file:
             return json.load(file)
 
-    def compare(self, path):
+    def compare(self, path, tolerance=0.6 / 255):
         """Pixels that differ from what `elvis render` makes of the scene."""
         own = path + ".own.png"
         done = tell(PROGRAM, "render", path + ".json", "-o", own)
@@ -61,7 +61,7 @@ class ParaView(unittest.TestCase):
         alpha = expected[..., 3:]
         expected = alpha * expected[..., :3] + (1 - alpha) * BACKGROUND
         self.assertGreater(numpy.count_nonzero(alpha), 5000)
-        return numpy.count_nonzero(numpy.abs(shown - expected).max(axis=2) > 0.6 / 255)
+        return numpy.count_nonzero(numpy.abs(shown - expected).max(axis=2) > tolerance)
 
     def test_pixels_are_those_of_elvis_on_one_to_three_ranks(self):
         pictures = []
@@ -81,6 +81,22 @@ class ParaView(unittest.TestCase):
     def test_orthographic_views_in_one_color_and_double_precision(self):
         path, _ = self.draw("one_color")
         self.assertEqual(self.compare(path), 0)
+
+    def test_light_of_the_volume_is_in_front_of_its_own_and_other_surfaces(self):
+        path, said = self.draw("light")
+        # One step of eight bits, since the surface behind has been rounded to them.
+        self.assertEqual(self.compare(path, 1.6 / 255), 0)
+        self.assertIn("volume_rendering", self.scene(path))
+        path, _ = self.draw("light_and_plane")
+        own, other = (matplotlib.image.imread(name)[..., :3] for name in (path, path + ".plane.png"))
+        # In the middle, where both planes are.
+        middle = slice(65, 85), slice(90, 110)
+        self.assertGreater(own[middle][..., 1].min(), 0.3)
+        self.assertLess(numpy.abs(own[middle] - other[middle]).max(), 2.1 / 255)
+
+    def test_several_ranks_say_that_they_leave_light_out(self):
+        _, said = self.draw("light", ranks=2)
+        self.assertIn("is left out on several ranks", said)
 
     def test_depths_are_those_of_other_things(self):
         """The green plane is in front of the red one where x is positive."""

@@ -73,6 +73,46 @@ def behind():
     save(view)
 
 
+def light():
+    """The volume itself, with a cut plane in it."""
+    view = make_view()
+    _, shown = show_volume(view)
+    shown.Boundary = 0
+    shown.Lit = 0
+    shown.CutPlanes = [0, 0, 1, 0]
+    shown.VolumeRendering = 1
+    shown.OpacityUnitDistance = 0.5
+    GetOpacityTransferFunction("waves").Points = [-1, 0, 0.5, 0, 1, 0.8, 0.5, 0]
+    save(view)
+    shown.UpdatePropertyInformation()
+    with open(output + ".json", "w") as file:
+        file.write(shown.GetProperty("Scene").GetData())
+    print("remarks", shown.GetProperty("Remarks").GetData())
+
+
+def light_and_plane():
+    """The same with a plane of ParaView in place of the cut plane, and the cut plane alone in its place."""
+    for own in (True, False):
+        view = make_view()
+        _, shown = show_volume(view)
+        shown.Boundary = 0
+        shown.VolumeRendering = 1
+        GetOpacityTransferFunction("waves").Points = [-1, 0, 0.5, 0, 1, 0.8, 0.5, 0]
+        plane = Plane(Origin=[-0.4, -0.4, 0], Point1=[0.4, -0.4, 0], Point2=[-0.4, 0.4, 0])
+        if own:
+            green = Show(ElVisReader(FileName=volume), view)
+            green.DiffuseColor = [0, 1, 0]
+            green.Boundary = 0
+            green.Lit = 0
+            green.CutPlanes = [0, 0, 1, 0]
+        else:
+            shown_plane = Show(plane, view)
+            shown_plane.DiffuseColor = shown_plane.AmbientColor = [0, 1, 0]
+            shown_plane.Ambient = 1
+            shown_plane.Diffuse = 0
+        SaveScreenshot(output + ("" if own else ".plane.png"), view, ImageResolution=[200, 150])
+
+
 def one_color():
     view = make_view()
     view.CameraParallelProjection = 1

@@ -4,9 +4,11 @@
 
 #include <vtkCamera.h>
 #include <vtkColorTransferFunction.h>
+#include <vtkPiecewiseFunction.h>
 #include <vtkRenderer.h>
 #include <vtkScalarsToColors.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace elvis_paraview {
@@ -152,22 +154,36 @@ Json surfaces_of(const ShownItems& items) {
     return surfaces;
 }
 
-} // namespace
-
-std::array<int, 2> size_of(vtkRenderer& renderer) {
-    int width = 0, height = 0, left = 0, bottom = 0;
-    renderer.GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
-    return {width, height};
+/** By values of the field, linear between. */
+Json opacity_of(vtkPiecewiseFunction& function) {
+    // Scenes have no more than this at a point.
+    constexpr double most = 1 - 1e-6;
+    const auto point = [&](double value, double opacity) { return Json{value, std::clamp(opacity, 0.0, most)}; };
+    Json points = Json::array();
+    bool is_linear = true;
+    for (int index = 0; index < function.GetSize(); ++index) {
+        double node[4];
+        function.GetNodeValue(index, node);
+        is_linear = is_linear && node[2] == 0.5 && node[3] == 0;
+        points.push_back(point(node[0], node[1]));
+    }
+    if (!is_linear) {
+        const double lower = function.GetRange()[0], upper = function.GetRange()[1];
+        points = Json::array();
+        for (int k = 0; k <= n_samples; ++k) {
+            const double value = lower + (upper - lower) * k / n_samples;
+            points.push_back(point(value, function.GetValue(value)));
+        }
+    }
+    return points;
 }
 
-std::string scene_of_view(vtkRenderer& renderer, const ShownItems& items) {
-    const std::array<int, 2> size = size_of(renderer);
+Json scene_of(vtkRenderer& renderer, const ShownItems& items) {
     Json scene{{"version", 1},
                {"volume", volume_of(items)},
                {"precision", items.is_float64 ? "float64" : "float32"},
                {"camera", camera_of(*renderer.GetActiveCamera())},
-               {"image", {{"size", size}, {"background", {0, 0, 0, 0}}}},
-               {"surfaces", surfaces_of(items)}};
+               {"image", {{"size", size_of(renderer)}, {"background", {0, 0, 0, 0}}}}};
     if (!items.field.empty()) {
         scene["field"] = items.field;
     }
@@ -176,11 +192,31 @@ std::string scene_of_view(vtkRenderer& renderer, const ShownItems& items) {
     } else {
         scene["color_map"] = {{"points", {{0, items.color[0], items.color[1], items.color[2]}}}};
     }
-    if (!items.contours.empty()) {
-        scene["contours"] = {{"values", items.contours}};
+    return scene;
+}
+
+} // namespace
+
+std::array<int, 2> size_of(vtkRenderer& renderer) {
+    int width = 0, height = 0, left = 0, bottom = 0;
+    renderer.GetTiledSizeAndOrigin(&width, &height, &left, &bottom);
+    return {width, height};
+}
+
+std::string scene_of_view(vtkRenderer& renderer, const ShownItems& items, double diagonal, Part part) {
+    Json scene = scene_of(renderer, items);
+    if (part != Part::light) {
+        scene["surfaces"] = surfaces_of(items);
+        if (!items.contours.empty()) {
+            scene["contours"] = {{"values", items.contours}};
+        }
+        if (items.has_mesh_lines) {
+            scene["mesh_lines"] = Json::object();
+        }
     }
-    if (items.has_mesh_lines) {
-        scene["mesh_lines"] = Json::object();
+    if (part != Part::surfaces && items.opacity != nullptr) {
+        scene["volume_rendering"] = {{"opacity", opacity_of(*items.opacity)},
+                                     {"unit_distance", items.unit_distance > 0 ? items.unit_distance : diagonal / 20}};
     }
     return scene.dump();
 }

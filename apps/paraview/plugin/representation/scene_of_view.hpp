@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+class vtkPiecewiseFunction;
 class vtkRenderer;
 class vtkScalarsToColors;
 
@@ -31,12 +32,23 @@ struct ShownItems {
     /** Of `isosurface_field`, or of `field` if that is "". */
     std::vector<double> isovalues, contours;
     std::string isosurface_field;
+    /** Of the volume itself, by values of the field; null: its light is not shown. */
+    vtkPiecewiseFunction* opacity = nullptr;
+    /** Length of a ray that opacity is over, in the world; 0: a twentieth of the diagonal of the bounds. */
+    double unit_distance = 0;
+
+    bool has_surfaces() const { return has_boundary || !cut_planes.empty() || !isovalues.empty(); }
 };
 
 /** Size of the renderer's viewport in pixels. */
 std::array<int, 2> size_of(vtkRenderer& renderer);
 
-/** The scene as JSON: the renderer's camera and size, a background that is not seen, and the items. */
-std::string scene_of_view(vtkRenderer& renderer, const ShownItems& items);
+enum class Part { all, surfaces, light };
+
+/**
+ * A scene as JSON: the renderer's camera and size, a background that is not seen, and a part of the items. `diagonal`: of the
+ * volume's bounds.
+ */
+std::string scene_of_view(vtkRenderer& renderer, const ShownItems& items, double diagonal, Part part);
 
 } // namespace elvis_paraview

@@ -5,6 +5,7 @@
 
 #include <vtkAlgorithmOutput.h>
 #include <vtkDataSet.h>
+#include <vtkDiscretizableColorTransferFunction.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkInformationVector.h>
@@ -23,6 +24,7 @@ struct vtkElVisRepresentation::State {
     std::shared_ptr<elvis_paraview::OpenVolume> volume;
     ShownItems items;
     vtkSmartPointer<vtkScalarsToColors> colors;
+    bool has_light = false;
     vtkNew<PictureProp> prop;
     /** Handed to the view, which delivers something of each representation. */
     vtkNew<vtkPolyData> nothing;
@@ -85,6 +87,8 @@ int vtkElVisRepresentation::ProcessViewRequest(vtkInformationRequestKey* request
     } else if (request == vtkPVView::REQUEST_RENDER()) {
         const bool has_field = state.colors != nullptr && !state.items.field.empty();
         state.items.colors = has_field ? state.colors.Get() : nullptr;
+        auto* map = vtkDiscretizableColorTransferFunction::SafeDownCast(state.items.colors);
+        state.items.opacity = state.has_light && map != nullptr ? map->GetScalarOpacityFunction() : nullptr;
         state.prop->show(state.volume, state.items);
     }
     return 1;
@@ -141,6 +145,16 @@ void vtkElVisRepresentation::SetMeshLines(bool are_shown) {
 
 void vtkElVisRepresentation::SetLighting(bool is_on) {
     this->Internals->items.is_lit = is_on;
+    this->Change();
+}
+
+void vtkElVisRepresentation::SetVolume(bool is_shown) {
+    this->Internals->has_light = is_shown;
+    this->Change();
+}
+
+void vtkElVisRepresentation::SetOpacityUnitDistance(double length) {
+    this->Internals->items.unit_distance = length;
     this->Change();
 }
 

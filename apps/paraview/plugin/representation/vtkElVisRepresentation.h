@@ -35,6 +35,10 @@ public:
     void SetBoundary(bool is_shown);
     void SetMeshLines(bool are_shown);
     void SetLighting(bool is_on);
+    /** The volume itself, by the opacity function of the lookup table. */
+    void SetVolume(bool is_shown);
+    /** Length that the opacity is over; 0: a twentieth of the diagonal of the bounds. */
+    void SetOpacityUnitDistance(double length);
     /** Evaluation in double precision. */
     void SetDoublePrecision(bool is_on);
     /** a, b, c, d of ax + by + cz + d = 0. */

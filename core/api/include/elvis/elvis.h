@@ -407,6 +407,12 @@ typedef struct elvis_render_options {
     elvis_render_flags flags;
     /** 0: the scene's ("image" "size"). */
     uint32_t width, height;
+    /**
+     * NULL, or of scenes with volume rendering and without surfaces, whose "image" "samples" is 1: how far along each pixel's
+     * ray (ELVIS_CHANNEL_DEPTH) an opaque thing of the program lies, rows from the top without gaps; INFINITY where there is
+     * none. Light of the volume in front of it is drawn, over the scene's background.
+     */
+    const double* hidden_from;
 } elvis_render_options;
 
 /**
