@@ -4,7 +4,7 @@
 // zero; or the range of its derivative along the ray says that the function only rises or only falls there, so that its values at
 // the interval's ends tell whether there is one. Intervals are gone through from near to far: the first crossing found is the first there
 // is. An interval that single (or double) precision cannot halve any more is a crossing if the signs at its ends differ; else the ray
-// touches the surface there, as far as can be known, and the pixel is undecided.
+// touches the surface there, as far as can be known, and the pixel is undecided. So it is where rounding decides the sign at an end.
 //
 // The kernel brings core_implicit_value, core_implicit and core_implicit_slopes (core/expression/glsl.hpp), of world coordinates.
 //
@@ -37,11 +37,17 @@ struct core_implicit_interval {
     // Values at both ends, and whether their signs are known to differ.
     elvis_real at_low, at_high;
     bool has_change;
-    // It has no zero; the function only rises or only falls.
-    bool is_excluded, is_monotone;
+    // It has no zero; the function only rises or only falls; rounding decides a sign at an end, and with it whether there is a zero.
+    bool is_excluded, is_monotone, is_open;
     // It cannot be halved any more.
     bool is_last;
 };
+
+// Whether the function may be zero at a point, as far as the point and its value are known.
+bool core_may_be_zero(core_surface_ray ray, elvis_vec3 x) {
+    const core_interval here = core_implicit_range(CORE_IMPLICIT_BOX(x, x, ray.noise));
+    return here.lower <= elvis_real(0) && here.upper >= elvis_real(0);
+}
 
 core_implicit_interval core_implicit_interval_at(core_surface_ray ray, elvis_real from, elvis_real extent, uint level, uint index) {
     const elvis_real zero = elvis_real(0);
@@ -62,6 +68,11 @@ core_implicit_interval core_implicit_interval_at(core_surface_ray ray, elvis_rea
     interval.is_monotone = is_finite && core_interval_is_bounded(slope) && (slope.lower > zero || slope.upper < zero);
     interval.has_change = is_finite && (interval.at_low < zero) != (interval.at_high < zero);
     interval.is_last = level >= CORE_IMPLICIT_LEVELS || interval.width * core_norm1(ray.direction) <= elvis_real(2) * ray.noise;
+    interval.is_open = false;
+    if (!interval.is_excluded && (interval.is_monotone || (interval.is_last && interval.has_change))) {
+        // The ray may begin at a crossing that was found before.
+        interval.is_open = (interval.low > from && core_may_be_zero(ray, a)) || core_may_be_zero(ray, b);
+    }
     return interval;
 }
 
@@ -134,7 +145,7 @@ core_hit core_next_hit(core_surface_ray ray) {
         if (has_zero) {
             is_active = !core_take_zero(ray, interval, extent, t, touch, best);
         }
-        best.is_undecided = core_take_touch(interval, touch) || best.is_undecided;
+        best.is_undecided = core_take_touch(interval, touch) || interval.is_open || best.is_undecided;
         const bool goes_down = !interval.is_excluded && !interval.is_monotone && !interval.is_last;
         level += goes_down ? 1u : 0u;
         index = goes_down ? 2u * index : index + 1u;

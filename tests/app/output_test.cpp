@@ -12,7 +12,7 @@ TEST_CASE("A name that promises another format is refused before any work, with 
         const char* says;
     } cases[] = {
         {"render missing.h5 -o x.jpg", "x.jpg", "--output: 'x.jpg' does not end in .png"},
-        {"render ball.h5 -o x.svg", "x.svg", ".png"},
+        {"render ball.h5 -o x.bmp", "x.bmp", ".png"},
         {"render ball.h5 -o x", "x", ".png"},
         {"render ball.h5 -o x.png --buffers x.npz", "x.npz", "--buffers: 'x.npz' does not end in .h5 or .hdf5"},
         {"render ball.h5 -o x.png --stats x.yaml", "x.yaml", ".json"},

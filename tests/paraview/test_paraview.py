@@ -76,7 +76,7 @@ class ParaView(unittest.TestCase):
         self.assertEqual(len(scene["surfaces"]), 4)
         # The map and its range are ParaView's.
         values = [float(word) for word in next(line for line in said.splitlines() if line.startswith("range")).split()[1:]]
-        self.assertEqual(scene["color_map"]["range"], values)
+        numpy.testing.assert_allclose(scene["color_map"]["range"], values, rtol=1e-14)
 
     def test_orthographic_views_in_one_color_and_double_precision(self):
         path, _ = self.draw("one_color")
