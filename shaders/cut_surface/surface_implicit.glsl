@@ -4,7 +4,8 @@
 // zero; or the range of its derivative along the ray says that the function only rises or only falls there, so that its values at
 // the interval's ends tell whether there is one. Intervals are gone through from near to far: the first crossing found is the first there
 // is. An interval that single (or double) precision cannot halve any more is a crossing if the signs at its ends differ; else the ray
-// touches the surface there, as far as can be known, and the pixel is undecided. So it is where rounding decides the sign at an end.
+// touches the surface there, as far as can be known, and the pixel is undecided. So it is where the function only rises or only falls, but
+// rounding decides its sign at an end.
 //
 // The kernel brings core_implicit_value, core_implicit and core_implicit_slopes (core/expression/glsl.hpp), of world coordinates.
 //
@@ -69,7 +70,7 @@ core_implicit_interval core_implicit_interval_at(core_surface_ray ray, elvis_rea
     interval.has_change = is_finite && (interval.at_low < zero) != (interval.at_high < zero);
     interval.is_last = level >= CORE_IMPLICIT_LEVELS || interval.width * core_norm1(ray.direction) <= elvis_real(2) * ray.noise;
     interval.is_open = false;
-    if (!interval.is_excluded && (interval.is_monotone || (interval.is_last && interval.has_change))) {
+    if (!interval.is_excluded && interval.is_monotone) {
         // The ray may begin at a crossing that was found before.
         interval.is_open = (interval.low > from && core_may_be_zero(ray, a)) || core_may_be_zero(ray, b);
     }
