@@ -29,8 +29,8 @@ namespace {
 
 /** Numbers of a block in memory, all fields together (8 MiB); each processor has one block in work. */
 constexpr std::uint64_t block_numbers = 1u << 20;
-/** Of a class, unless blocks were smaller than is worth their while. */
-constexpr std::uint64_t fewest_blocks = 256, smallest_block = 8;
+/** Of a class, unless it has fewer elements. */
+constexpr std::uint64_t fewest_blocks = 256;
 
 /**
  * Residual of an exact conversion, relative to the largest value: rounding in sums over modes, amplified by the projection's
@@ -172,7 +172,7 @@ void Conversion::prepare() {
         // Small volumes are cut finer than memory asks for, to keep all processors at work. Not by how many there are: the last
         // bits of a product of matrices depend on its size.
         const std::uint64_t n_elements = target.elements.size();
-        const std::uint64_t share = std::max(smallest_block, (n_elements + fewest_blocks - 1) / fewest_blocks);
+        const std::uint64_t share = (n_elements + fewest_blocks - 1) / fewest_blocks;
         const std::uint64_t size = std::max<std::uint64_t>(1, std::min(share, block_numbers / numbers));
         for (std::uint64_t first = 0; first < n_elements; first += size) {
             m_blocks.push_back({index, first, std::min(size, n_elements - first)});

@@ -29,8 +29,8 @@ layout(push_constant) uniform core_parameters {
     // Among all elements of the volume.
     uint core_first_element;
     uint core_zero;
-    // The diagonal of the volume's bounds.
-    float core_extent;
+    // The diagonal of the volume's bounds; what its positions are off before any of it is evaluated.
+    float core_extent, core_data_error;
 };
 
 #if CORE_RAYS_ARE_GIVEN
@@ -249,7 +249,7 @@ void main() {
     const CORE_STATE state = core_states[pixel];
     const bool is_mine = is_pixel && (state.walk.status == CORE_RAY_SEEKS || state.walk.status == CORE_RAY_HAS_SOUGHT);
     const core_ray pixel_ray = core_source_ray(place.x, place.y, pixel);
-    const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent));
+    const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent), elvis_real(core_data_error));
     core_start_search search = core_search_begin(state, pixel_ray.least_t, place, is_mine);
     core_segment segment = core_no_segment();
     const vec3 along = vec3(ray.direction / ray.speed);

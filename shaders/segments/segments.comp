@@ -28,8 +28,8 @@ layout(push_constant) uniform core_parameters {
     // 0: no lists are made.
     uint core_capacity;
     uint core_zero;
-    // The diagonal of the volume's bounds.
-    float core_extent;
+    // The diagonal of the volume's bounds; what its positions are off before any of it is evaluated.
+    float core_extent, core_data_error;
 };
 
 #define CORE_RAYS_BINDING 4
@@ -116,7 +116,7 @@ void main() {
     const bool is_ray = column < core_size.x && row < core_size.y;
     const uint index = is_ray ? row * core_size.x + column : 0u;
     const core_segment_state state = core_states[index];
-    const core_traced_ray ray = core_traced_ray_of(core_source_ray(column, row, index), elvis_real(core_extent));
+    const core_traced_ray ray = core_traced_ray_of(core_source_ray(column, row, index), elvis_real(core_extent), elvis_real(core_data_error));
     const elvis_real to = core_source_ray_end(index);
     core_walk walk = core_walk_begin(state.walk, is_ray, to, CORE_RAY_ENDS);
     core_segment_list list =

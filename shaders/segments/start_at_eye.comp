@@ -26,8 +26,8 @@ layout(push_constant) uniform core_parameters {
     // Among all elements of the volume.
     uint core_first_element;
     uint core_zero;
-    // The diagonal of the volume's bounds.
-    float core_extent;
+    // The diagonal of the volume's bounds; what its positions are off before any of it is evaluated.
+    float core_extent, core_data_error;
 };
 
 #if CORE_RAYS_ARE_GIVEN
@@ -126,7 +126,7 @@ void main() {
     core_walk_state walk = core_states[pixel].walk;
     const bool is_mine = is_pixel && walk.status == CORE_RAY_SEEKS;
     const core_ray pixel_ray = core_source_ray(place.x, place.y, pixel);
-    const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent));
+    const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent), elvis_real(core_data_error));
     const elvis_real t = pixel_ray.least_t;
     const elvis_vec3 way = t * pixel_ray.direction;
     const vec3 point = pixel_ray.box_origin + vec3(way);

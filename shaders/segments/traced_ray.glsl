@@ -23,13 +23,13 @@ struct core_traced_ray {
     elvis_real longest;
 };
 
-// `extent`: the diagonal of the volume's bounds.
-core_traced_ray core_traced_ray_of(core_ray pixel_ray, elvis_real extent) {
+// `extent`: the diagonal of the volume's bounds. `data_error`: neighbours' edges and faces agree no better, and a ray must not slip through.
+core_traced_ray core_traced_ray_of(core_ray pixel_ray, elvis_real extent, elvis_real data_error) {
     core_traced_ray ray;
     ray.origin = pixel_ray.origin;
     ray.direction = pixel_ray.direction;
     ray.speed = length(pixel_ray.direction);
-    ray.error = CORE_ROUNDING_SHARE * (pixel_ray.error + elvis_real(2) * CORE_ROUNDOFF * extent);
+    ray.error = CORE_ROUNDING_SHARE * (pixel_ray.error + elvis_real(2) * CORE_ROUNDOFF * extent) + data_error;
     ray.tolerance = CORE_END_TOLERANCE * extent / ray.speed;
     ray.longest = elvis_real(4) * extent / ray.speed;
     return ray;

@@ -32,8 +32,8 @@ layout(push_constant) uniform core_parameters {
     // Intervals where bounds say that density and colour are constant need no values.
     uint core_skips_by_range;
     uint core_zero;
-    // The diagonal of the volume's bounds.
-    float core_extent;
+    // The diagonal of the volume's bounds; what its positions are off before any of it is evaluated.
+    float core_extent, core_data_error;
     // Of a channel; of the field's density and light with its value, at most; world length of steps.
     float core_tolerance, core_steepest, core_step_length;
 };
@@ -96,7 +96,7 @@ void main() {
     const bool is_pixel = place.x < core_size.x && place.y < core_size.y;
     const uint pixel = is_pixel ? place.y * core_size.x + place.x : 0u;
     const core_cut_column column = core_cut_begin(elvis_real(place.x));
-    const core_traced_ray ray = core_traced_ray_of(core_pixel_ray(column, elvis_real(place.y)), elvis_real(core_extent));
+    const core_traced_ray ray = core_traced_ray_of(core_pixel_ray(column, elvis_real(place.y)), elvis_real(core_extent), elvis_real(core_data_error));
     const core_ray_stop stop = core_stop_of(pixel, ray.speed, column.reference_distance);
     const core_volume_state state = core_states[pixel];
     core_walk walk = core_walk_begin(state.walk, is_pixel, stop.t, stop.status);

@@ -29,7 +29,7 @@ struct MarchParameters {
     std::uint32_t first_element, n_elements;
     std::uint32_t capacity;
     std::uint32_t zero;
-    float extent;
+    float extent, data_error;
 };
 
 /** Of shaders/segments/segment_state.glsl. */
@@ -164,8 +164,9 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
         for (std::size_t index = 0; index < kernels.march.size(); ++index) {
             const WalkSearch::Range& range = kernels.search.ranges()[index];
             m_counts.fill(0);
-            const MarchParameters parameters{rays.walk.width,  rays.walk.height, 0, range.first_element,
-                                             range.n_elements, rays.capacity,    0, kernels.search.extent()};
+            const MarchParameters parameters{
+                rays.walk.width,         rays.walk.height,           0, range.first_element, range.n_elements, rays.capacity, 0,
+                kernels.search.extent(), kernels.search.data_error()};
             std::vector<const Buffer*> bindings = {&m_frame, &rays.walk.states, &rays.segments, &m_counts};
             if (rays.walk.given != nullptr) {
                 bindings.push_back(rays.walk.given);

@@ -25,7 +25,7 @@ struct EyeParameters {
     std::uint32_t first_group;
     std::uint32_t first_element;
     std::uint32_t zero;
-    float extent;
+    float extent, data_error;
 };
 
 struct SeekParameters {
@@ -34,8 +34,18 @@ struct SeekParameters {
     std::uint32_t first_group;
     std::uint32_t first_element;
     std::uint32_t zero;
-    float extent;
+    float extent, data_error;
 };
+
+/** Of positions, which solvers and converters have rounded in double precision: see shaders/cut_surface/element_candidate.glsl.
+ */
+double data_error_of(const std::array<double, 6>& bounds) {
+    double farthest = 0;
+    for (const double coordinate : bounds) {
+        farthest = std::max(farthest, std::abs(coordinate));
+    }
+    return 32 * 0x1p-53 * farthest;
+}
 
 } // namespace
 
@@ -43,7 +53,7 @@ WalkSearch::WalkSearch(const Device& device, const DeviceVolume& data, const Wal
                        std::vector<std::pair<std::string, std::string>> defines, bool are_given)
     : m_device(device), m_data(data), m_walk_data(walk_data), m_defines(std::move(defines)), m_are_given(are_given),
       m_tile_width(tile_width_on(device)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_data_error(static_cast<float>(data_error_of(data.bounds()))), m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
         if (info.n_elements > 0) {
@@ -133,7 +143,7 @@ std::uint64_t WalkSearch::start_at_eyes(const WalkRays& rays, const RayGroups& g
             begin_search();
         }
         is_any = true;
-        const EyeParameters parameters{rays.width, rays.height, 0, m_ranges[index].first_element, 0, m_extent};
+        const EyeParameters parameters{rays.width, rays.height, 0, m_ranges[index].first_element, 0, m_extent, m_data_error};
         const std::array<const Buffer*, 4> bindings = {&rays.frame, &rays.states, &m_counts,
                                                        m_are_given ? rays.given : groups.list};
         dispatch(eye_kernel(index), bindings, parameters, rays, groups);
@@ -145,8 +155,8 @@ void WalkSearch::seek(std::size_t index, const WalkRays& rays, const RayGroups& 
     if (m_walk_data.n_starts(m_ranges[index].element_class) == 0) {
         return;
     }
-    const SeekParameters parameters{rays.width, rays.height, tiles_a_row(rays.width), 0, m_ranges[index].first_element,
-                                    0,          m_extent};
+    const SeekParameters parameters{rays.width, rays.height, tiles_a_row(rays.width), 0, m_ranges[index].first_element, 0,
+                                    m_extent,   m_data_error};
     // No lists are read where rays are given: anything.
     const std::array<const Buffer*, 5> bindings = {&rays.frame, &rays.states,
                                                    m_are_given ? &m_counts : &*m_kernels[index].lists, &m_counts,

@@ -51,6 +51,8 @@ public:
     std::uint32_t tiles_a_row(std::uint32_t width) const { return divided_up(width, m_tile_width); }
     /** The diagonal of the volume's bounds. */
     float extent() const { return m_extent; }
+    /** What positions are off before they are evaluated. */
+    float data_error() const { return m_data_error; }
 
     /** Of a kernel that goes along the rays in the class's elements; without the class's snippet. Binding 0 is the frame. */
     KernelRequest request(const Range& range, const char* kernel) const;
@@ -102,7 +104,7 @@ private:
     std::vector<std::pair<std::string, std::string>> m_defines;
     bool m_are_given;
     std::uint32_t m_tile_width;
-    float m_extent = 0;
+    float m_extent = 0, m_data_error = 0;
     std::vector<Range> m_ranges;
     /** By m_ranges. */
     std::vector<Kernels> m_kernels;

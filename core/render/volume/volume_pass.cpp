@@ -32,7 +32,7 @@ struct MarchParameters {
     std::uint32_t has_depths, has_stops;
     std::uint32_t skips_by_range;
     std::uint32_t zero;
-    float extent;
+    float extent, data_error;
     float tolerance, steepest, step;
 };
 
@@ -210,6 +210,7 @@ void VolumePass::march(std::size_t index, const Picture& picture, const RayGroup
                                      m_wanted.skips_by_range ? 1u : 0u,
                                      0,
                                      m_search.extent(),
+                                     m_search.data_error(),
                                      static_cast<float>(m_wanted.tolerance),
                                      static_cast<float>(m_steepest),
                                      static_cast<float>(m_wanted.step)};
