@@ -6,41 +6,12 @@
 #include <core/expression/glsl_text.hpp>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <iterator>
 
 namespace elvis {
 
 using namespace expression_glsl;
-
-namespace {
-
-const char* const real_includes = "#include \"field/expression.glsl\"\n";
-
-std::vector<NodeId> roots_with_gradient(const Expression& expression) {
-    const auto& [d0, d1, d2] = expression.gradient().value();
-    return {expression.value(), d0, d1, d2};
-}
-
-/** Nodes and results of a function that gives value and gradient. */
-std::string gradient_body(const Expression& expression, const NodeWriter::Dialect& dialect) {
-    const auto& [d0, d1, d2] = expression.gradient().value();
-    NodeWriter nodes(expression.graph(), expression.graph().needed(roots_with_gradient(expression)), dialect);
-    const Operands whole{nodes.whole(d0), nodes.whole(d1), nodes.whole(d2)};
-    const std::string value = nodes.whole(expression.value());
-    return nodes.text() + "    value = " + value + ";\n    gradient = elvis_vec3(" + whole[0] + ", " + whole[1] + ", " +
-           whole[2] + ");\n}\n";
-}
-
-/** Nodes and result of a function that gives the value. */
-std::string value_body(const Expression& expression, const NodeWriter::Dialect& dialect) {
-    NodeWriter nodes(expression.graph(), expression.graph().needed({expression.value()}), dialect);
-    const std::string value = nodes.whole(expression.value());
-    return nodes.text() + "    return " + value + ";\n}\n";
-}
-
-} // namespace
 
 ExpressionClass expression_class(const RuntimeVolume& volume, std::uint32_t element_class) {
     ExpressionClass result;
@@ -156,41 +127,6 @@ std::string model_glsl(const Expression& expression, const ExpressionClass& elem
     return text + "bool core_is_model_estimated(uint element) { return " + is_estimated + "; }\n";
 }
 
-namespace {
-
-/**
- * A condition in GLSL, of the nodes' intervals: that all is continuous there where it has a value, so that derivatives tell how
- * the value can change.
- */
-std::string continuity(const Graph& graph, const std::vector<NodeId>& needed) {
-    const auto of = [](NodeId id, const char* end) { return "core_interval_" + name(id) + end; };
-    std::string text = "true";
-    for (const NodeId id : needed) {
-        const Node& node = graph.node(id);
-        const auto [a, b, c] = node.operands;
-        switch (node.operation) {
-        case Operation::sign:
-        case Operation::less:
-        case Operation::less_equal:
-        case Operation::equal:
-            text += " && " + of(id, ".lower == ") + of(id, ".upper");
-            break;
-        case Operation::arctangent2:
-            text += " && (" + of(a, ".lower > elvis_real(0) || ") + of(a, ".upper < elvis_real(0) || ") +
-                    of(b, ".lower > elvis_real(0))");
-            break;
-        case Operation::over_length:
-            text += " && " + of(b, ".lower > elvis_real(0)");
-            break;
-        default:
-            break;
-        }
-    }
-    return text;
-}
-
-} // namespace
-
 std::string error_glsl(const Expression& expression, const ExpressionClass& element_class) {
     const Graph& graph = expression.graph();
     const std::vector<NodeId> needed = graph.needed({expression.value()});
@@ -229,54 +165,6 @@ std::string error_glsl(const Expression& expression, const ExpressionClass& elem
     const std::string value = nodes.whole(expression.value());
     text += nodes.text() + errors;
     return text + "    return core_error_" + name(expression.value()) + " + CORE_ROUNDOFF * abs(" + value + ");\n}\n";
-}
-
-std::string implicit_glsl(const Expression& expression) {
-    assert(expression.is_implicit());
-    const Graph& graph = expression.graph();
-    const auto leaf = [](const Node& node) {
-        return node.operation == Operation::constant ? literal(node.number) : "x[" + std::to_string(node.index[0]) + "]";
-    };
-    const auto interval_leaf = [](const Node& node) -> std::string {
-        constexpr const char* axes[] = {"x", "y", "z"};
-        // Integers of moderate size are exact in both precisions.
-        const bool is_exact = node.number == std::floor(node.number) && std::abs(node.number) < 1e6;
-        return node.operation != Operation::constant
-                   ? axes[node.index[0]]
-                   : call(is_exact ? "core_interval_number" : "core_interval_near", {literal(node.number)});
-    };
-    const std::vector<NodeId> of_value = graph.needed({expression.value()});
-    std::string text = std::string(real_includes) +
-                       "#include \"arithmetic/interval.glsl\"\n#include \"arithmetic/interval_choice.glsl\"\n" +
-                       commented(expression);
-    const NodeWriter::Dialect reals = real_dialect(leaf, [](const Node&) { return 0.0; });
-    text += "elvis_real core_implicit_value(elvis_vec3 x) {\n" + value_body(expression, reals);
-    text += "void core_implicit(elvis_vec3 x, out elvis_real value, out elvis_vec3 gradient) {\n" +
-            gradient_body(expression, reals);
-    const auto intervals = [&](const std::vector<NodeId>& needed) {
-        std::string lines;
-        for (const NodeId id : needed) {
-            const Node& node = graph.node(id);
-            lines += "    const core_interval core_interval_" + name(id) + " = ";
-            Operands operands;
-            for (std::size_t i = 0; i < n_operands(node.operation); ++i) {
-                operands[i] = "core_interval_" + name(node.operands[i]);
-            }
-            lines += n_operands(node.operation) == 0 ? interval_leaf(node)
-                                                     : enclosure_operation(node, operands, "core_interval_", "");
-            lines += ";\n";
-        }
-        return lines;
-    };
-    text += "core_interval core_implicit_range(core_interval x, core_interval y, core_interval z) {\n" + intervals(of_value) +
-            "    return core_interval_" + name(expression.value()) + ";\n}\n";
-    text += "core_interval core_implicit_slopes(core_interval x, core_interval y, core_interval z, out core_interval dx, "
-            "out core_interval dy, out core_interval dz) {\n";
-    const auto& [d0, d1, d2] = expression.gradient().value();
-    text += intervals(graph.needed(roots_with_gradient(expression))) + "    dx = core_interval_" + name(d0) +
-            ";\n    dy = core_interval_" + name(d1) + ";\n    dz = core_interval_" + name(d2) + ";\n    if (!(" +
-            continuity(graph, of_value) + ")) {\n        dx = dy = dz = core_interval_whole();\n    }\n";
-    return text + "    return core_interval_" + name(expression.value()) + ";\n}\n";
 }
 
 bool value_is_estimated(const Expression& expression, const ExpressionClass& element_class) {

@@ -8,7 +8,7 @@
  *     core_model core_shown_model(uint element, elvis_vec3 xi, core_region region, out elvis_real value)
  *     bool core_is_model_estimated(uint element)   (both by shaders/arithmetic/model.glsl)
  *
- * and for implicit expressions, without any instance,
+ * and for implicit expressions, without any instance, of world coordinates less an origin,
  *
  *     elvis_real core_implicit_value(elvis_vec3 x)
  *     void core_implicit(elvis_vec3 x, out elvis_real value, out elvis_vec3 gradient)
@@ -54,7 +54,11 @@ std::string gradient_glsl(const Expression& expression, const ExpressionClass& e
 std::string model_glsl(const Expression& expression, const ExpressionClass& element_class);
 /** elvis_real core_shown_error(uint element, elvis_vec3 xi): about what the value loses by rounding, to first order. */
 std::string error_glsl(const Expression& expression, const ExpressionClass& element_class);
-std::string implicit_glsl(const Expression& expression);
+/**
+ * `origin`: what its coordinates are relative to. Constants next to coordinates are put together with it in double precision,
+ * so that x - 10000.3 keeps its digits near an origin at 10000.
+ */
+std::string implicit_glsl(const Expression& expression, const std::array<double, 3>& origin = {});
 
 /** Whether the value, or gradient_glsl's gradient, rests on differences because the plugin does not give what it needs. */
 bool value_is_estimated(const Expression& expression, const ExpressionClass& element_class);

@@ -18,7 +18,7 @@ std::string NodeWriter::whole(NodeId id) {
     }
     const std::string variable = m_dialect.prefix + "core_whole" + std::to_string(id);
     if (m_shifted.insert(id).second) {
-        declare(variable, m_dialect.shifted(base(id), m_lacking[id]));
+        declare(variable, m_dialect.shifted(base(id), static_cast<double>(m_lacking[id])));
     }
     return variable;
 }
@@ -30,9 +30,9 @@ void NodeWriter::declare(const std::string& variable, const std::string& value) 
 void NodeWriter::write(NodeId id) {
     const Node& of = node(id);
     const auto [a, b, c] = of.operands;
-    double lacking = 0;
+    long double lacking = 0;
     const bool is_sum = of.operation == Operation::add || of.operation == Operation::subtract;
-    const double sign = of.operation == Operation::subtract ? -1 : 1;
+    const long double sign = of.operation == Operation::subtract ? -1 : 1;
     if (n_operands(of.operation) == 0) {
         lacking = m_dialect.offset(of);
         declare(base(id), m_dialect.leaf(of));
@@ -72,6 +72,26 @@ NodeWriter::Dialect real_dialect(const std::function<std::string(const Node&)>& 
             real_operation,
             [](const std::string& variable, double constant) { return variable + " + " + literal(constant); },
             offset};
+}
+
+std::vector<NodeId> roots_with_gradient(const Expression& expression) {
+    const auto& [d0, d1, d2] = expression.gradient().value();
+    return {expression.value(), d0, d1, d2};
+}
+
+std::string gradient_body(const Expression& expression, const NodeWriter::Dialect& dialect) {
+    const auto& [d0, d1, d2] = expression.gradient().value();
+    NodeWriter nodes(expression.graph(), expression.graph().needed(roots_with_gradient(expression)), dialect);
+    const Operands whole{nodes.whole(d0), nodes.whole(d1), nodes.whole(d2)};
+    const std::string value = nodes.whole(expression.value());
+    return nodes.text() + "    value = " + value + ";\n    gradient = elvis_vec3(" + whole[0] + ", " + whole[1] + ", " +
+           whole[2] + ");\n}\n";
+}
+
+std::string value_body(const Expression& expression, const NodeWriter::Dialect& dialect) {
+    NodeWriter nodes(expression.graph(), expression.graph().needed({expression.value()}), dialect);
+    const std::string value = nodes.whole(expression.value());
+    return nodes.text() + "    return " + value + ";\n}\n";
 }
 
 } // namespace elvis::expression_glsl

@@ -52,13 +52,23 @@ private:
     const Graph& m_graph;
     Dialect m_dialect;
     std::string m_text;
-    /** By node: what its variable lacks. */
-    std::map<NodeId, double> m_lacking;
+    /** By node: what its variable lacks. Long, because large constants may cancel. */
+    std::map<NodeId, long double> m_lacking;
     std::set<NodeId> m_shifted;
 };
 
 /** Numbers of the precision in use. */
 NodeWriter::Dialect real_dialect(const std::function<std::string(const Node&)>& leaf,
                                  const std::function<double(const Node&)>& offset);
+
+/** What functions with numbers include. */
+inline constexpr const char* real_includes = "#include \"field/expression.glsl\"\n";
+
+/** The nodes of the value and its three derivatives. */
+std::vector<NodeId> roots_with_gradient(const Expression& expression);
+/** Nodes and results of a function that gives value and gradient. */
+std::string gradient_body(const Expression& expression, const NodeWriter::Dialect& dialect);
+/** Nodes and result of a function that gives the value. */
+std::string value_body(const Expression& expression, const NodeWriter::Dialect& dialect);
 
 } // namespace elvis::expression_glsl

@@ -98,7 +98,7 @@ SurfaceSolver& PassSet::solver(const CutShape& shape) {
     if (m_solvers.size() >= most_solvers && !m_solvers.contains(key)) {
         m_solvers.clear();
     }
-    return m_solvers.try_emplace(key, m_device, m_data.precision(), shape).first->second;
+    return m_solvers.try_emplace(key, m_device, m_data.precision(), shape, m_data.bounds()).first->second;
 }
 
 const EdgeSet& PassSet::edges(const FaceGeometry& faces) {

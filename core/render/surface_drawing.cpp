@@ -1,3 +1,4 @@
+#include <core/base/bounds.hpp>
 #include <core/render/surface_drawing.hpp>
 
 namespace elvis {
@@ -29,6 +30,7 @@ CutPlaneGeometry rays_of(const FrameRequest& request, const CutPlane* plane, con
     const auto [first_row, of_height] = request.place();
     CutPlaneGeometry geometry =
         cut_plane_geometry(plane != nullptr ? *plane : across, camera, request.width, of_height, data.centre());
+    geometry.set_most_error(most_error_along_ray * diagonal_of(data.bounds()));
     geometry.begin_at(first_row);
     return geometry;
 }

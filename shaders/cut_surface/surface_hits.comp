@@ -14,6 +14,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "picture/view.glsl"
 #include "cut_surface/surface_hit.glsl"
 #include "cut_surface/hit_record.glsl"
+#include "picture/place_error.glsl"
 
 layout(set = 0, binding = 2, std430) buffer core_hits_block { core_hit_record core_hits[]; };
 // Three numbers a pixel: unit, towards the viewer.
@@ -105,6 +106,14 @@ core_surface_ray core_surface_ray_of(core_cut_column along, elvis_real row, uint
     return ray;
 }
 
+// Whether the point may be farther from the surface than clipping reckons with.
+bool core_is_off_surface(core_surface_ray ray, core_hit hit, elvis_real along_ray) {
+    const elvis_vec3 normal = elvis_vec3(hit.normal_x, hit.normal_y, hit.normal_z);
+    const elvis_real stretch = length(ray.direction), size = length(normal);
+    const elvis_real cosine = size > elvis_real(0) ? abs(dot(normal, ray.direction)) / (size * stretch) : elvis_real(1);
+    return along_ray * cosine > CORE_HEIGHT_ERROR * (abs(hit.t) * stretch + length(ray.origin + hit.t * ray.direction));
+}
+
 // Writes what the pixel's ray meets, if anything is wanted of it. `along_ray`: the error of the point.
 void core_store_hit(uint pixel, core_surface_ray ray, core_hit hit, bool is_wanted, elvis_real along_ray) {
     const bool is_hit = hit.is_hit && is_wanted;
@@ -113,7 +122,8 @@ void core_store_hit(uint pixel, core_surface_ray ray, core_hit hit, bool is_want
     const bool is_vague = is_hit && along_ray > core_shape[0].w;
     const uint flags = (is_wanted && hit.is_undecided ? CORE_FLAG_UNDECIDED_IN_FRONT : is_vague ? CORE_FLAG_UNDECIDED : 0u) |
                        (is_wanted && hit.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
-                       (is_wanted && hit.is_estimated ? CORE_FLAG_ESTIMATED : 0u);
+                       (is_wanted && hit.is_estimated ? CORE_FLAG_ESTIMATED : 0u) |
+                       (is_hit && core_is_off_surface(ray, hit, along_ray) ? CORE_FLAG_VAGUE : 0u);
     if (flags != 0u) {
         core_marks[pixel].flags |= flags;
     }

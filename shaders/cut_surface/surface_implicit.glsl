@@ -7,9 +7,10 @@
 // touches the surface there, as far as can be known, and the pixel is undecided. So it is where the function only rises or only falls, but
 // rounding decides its sign at an end.
 //
-// The kernel brings core_implicit_value, core_implicit and core_implicit_slopes (core/expression/glsl.hpp), of world coordinates.
+// The kernel brings core_implicit_value, core_implicit and core_implicit_slopes (core/expression/glsl.hpp), of world coordinates less an
+// origin near the volume.
 //
-// Rows: xyz: the reference point, exact in single precision.
+// Rows: xyz: the reference point, relative to that origin.
 
 #include "cut_surface/surface_hit.glsl"
 #include "cut_surface/illinois.glsl"

@@ -88,11 +88,15 @@ core_clipping core_clipping_at(uint pixel) {
     elvis_vec3 direction;
     const elvis_real depth = core_samples[pixel].depth;
     const elvis_real reach = abs(depth) + length(core_position(pixel, depth, direction));
+    const uint flags = core_marks[pixel].flags;
+    const elvis_real off_surface = (flags & CORE_FLAG_VAGUE) == 0u       ? elvis_real(0)
+                                   : (flags & CORE_FLAG_UNDECIDED) == 0u ? core_near.y
+                                                                         : CORE_FAR;
     bool is_cut = false, is_surely_cut = false, is_open = false;
     for (uint i = 0u; i < core_n_clips; ++i) {
         const elvis_vec4 plane = core_special(9u + i);
         const elvis_real above = core_above_plane(pixel, plane);
-        const elvis_real error = CORE_HEIGHT_ERROR * reach * length(plane.xyz) +
+        const elvis_real error = (CORE_HEIGHT_ERROR * reach + off_surface) * length(plane.xyz) +
                                  CORE_PLACE_ERROR * core_change_above_plane(pixel, plane, above);
         is_cut = is_cut || above < elvis_real(0);
         is_surely_cut = is_surely_cut || above < -error;

@@ -58,8 +58,11 @@ struct core_mark {
 #define CORE_FLAG_RANGE_TOO_FINE 4096u
 #define CORE_FLAG_OVERLAP 8192u
 
-// Of a layer alone: a condition of the surface does not hold there (picture/condition.comp).
+// Of a layer alone: a condition of the surface does not hold there (picture/condition.comp); its point is known less well than
+// picture/place_error.glsl says.
 #define CORE_FLAG_CUT 16384u
+#define CORE_FLAG_VAGUE 32768u
+#define CORE_PICTURE_FLAGS 0x3fffu
 
 // Flags of a surface that stay where it is not seen: it may have missed something in front.
 #define CORE_FLAGS_STAY (CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED)

@@ -38,13 +38,13 @@ void main() {
 
 constexpr std::size_t n_boxes = 512;
 
-template <class Real> void check(const Device& device, const std::string& text) {
+template <class Real> void check(const Device& device, const std::string& text, const std::array<double, 3>& origin = {}) {
     const Expression expression = Expression::implicit(text);
     KernelRequest request;
     request.name = "implicit " + text;
     request.kernel = "implicit";
     request.kernel_text = kernel;
-    request.text = implicit_glsl(expression);
+    request.text = implicit_glsl(expression, origin);
     request.precision = sizeof(Real) == 8 ? Precision::float64 : Precision::float32;
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
     const ComposedKernel composed(device, request);
@@ -67,7 +67,9 @@ template <class Real> void check(const Device& device, const std::string& text) 
     const Buffer* const bindings[]{&input, &output};
     composed.dispatch(bindings, {}, n_boxes / 32);
     const std::vector<Real> results = output.read_items<Real>(7 * n_boxes);
-    const double roundoff = sizeof(Real) == 8 ? 1e-13 : 1e-5;
+    // The CPU rounds, too, coordinates as large as these.
+    const double cpu = 1e-15 * (std::abs(origin[0]) + std::abs(origin[1]) + std::abs(origin[2]));
+    const double roundoff = (sizeof(Real) == 8 ? 1e-13 : 1e-5) + 0.1 * cpu;
     std::size_t n_outside = 0, n_bounded = 0;
     for (std::size_t i = 0; i < n_boxes; ++i) {
         const Real* box = &boxes[6 * i];
@@ -77,17 +79,17 @@ template <class Real> void check(const Device& device, const std::string& text) 
             std::array<double, 3> x{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const double s = sample < 16 ? (sample >> axis) & 1 : unit(random);
-                x[axis] =
-                    static_cast<double>(box[axis]) + s * (static_cast<double>(box[3 + axis]) - static_cast<double>(box[axis]));
+                x[axis] = origin[axis] + static_cast<double>(box[axis]) +
+                          s * (static_cast<double>(box[3 + axis]) - static_cast<double>(box[axis]));
             }
             const double value = evaluate_implicit(expression, x).value;
-            // The CPU rounds, too.
-            const double slack = 1e-14 * (1 + std::abs(value));
+            const double slack = 1e-14 * (1 + std::abs(value)) + cpu;
             n_outside +=
                 value < static_cast<double>(result[0]) - slack || value > static_cast<double>(result[1]) + slack ? 1 : 0;
         }
-        const ValueAndGradient exact = evaluate_implicit(
-            expression, {static_cast<double>(box[0]), static_cast<double>(box[1]), static_cast<double>(box[2])});
+        const ValueAndGradient exact =
+            evaluate_implicit(expression, {origin[0] + static_cast<double>(box[0]), origin[1] + static_cast<double>(box[1]),
+                                           origin[2] + static_cast<double>(box[2])});
         if (!std::isfinite(exact.value) || !std::isfinite(exact.gradient[0] + exact.gradient[1] + exact.gradient[2])) {
             continue;
         }
@@ -122,5 +124,18 @@ TEST_CASE("implicit functions and their ranges over boxes hold on the device") {
          }) {
         check<float>(device, text);
         check<double>(device, text);
+    }
+}
+
+TEST_CASE("implicit functions keep their digits far from the world's origin") {
+    const Device device;
+    const std::array<double, 3> origin{10000, -20000, 4096};
+    for (const char* const text : {
+             "(x - 10000.25)^2 + (y + 20000.5)^2 + (4096 - z)^2 - 1.5",
+             "sin(3 * (x - 9999.625)) * cos(y + 20000) + exp(0.5 * (z - 4096)) * (2 * x - 20000) / 4",
+             "(x - 10000 > 0 ? atan2(y + 20000, x - 9990) : 1) + norm(grad((x - 10000)^2 + (y + 20001)^2 + z)) - z / 2",
+         }) {
+        check<float>(device, text, origin);
+        check<double>(device, text, origin);
     }
 }

@@ -233,17 +233,26 @@ void record(std::size_t pixel, std::uint32_t width, std::uint32_t flags, Verdict
                                   line.buffer, text_of(flags, line), text_of(flags ^ line.met, line)});
 }
 
-std::uint32_t flags_near(const Frame& frame, std::size_t pixel, double line_width) {
+struct NearFlags {
+    std::uint32_t flags = 0;
+    /** The surface is not seen in one of the pixels: cut away there, it may have a line that reaches as far as this one. */
+    bool has_hidden = false;
+};
+
+NearFlags flags_near(const Frame& frame, std::size_t pixel, double line_width) {
     const auto width = static_cast<int>(frame.width), height = static_cast<int>(frame.height);
     const int column = static_cast<int>(pixel) % width, row = static_cast<int>(pixel) / width;
     const double reach = 0.5 * (line_width - 1);
     const int most = static_cast<int>(reach);
-    std::uint32_t flags = 0;
+    NearFlags near;
     for (int r = std::max(0, row - most); r <= std::min(height - 1, row + most); ++r)
         for (int c = std::max(0, column - most); c <= std::min(width - 1, column + most); ++c)
-            if ((r - row) * (r - row) + (c - column) * (c - column) <= reach * reach + 0.25)
-                flags |= frame.flags[static_cast<std::size_t>(r * width + c)];
-    return flags;
+            if ((r - row) * (r - row) + (c - column) * (c - column) <= reach * reach + 0.25) {
+                const auto there = static_cast<std::size_t>(r * width + c);
+                near.flags |= frame.flags[there];
+                near.has_hidden = near.has_hidden || std::isnan(frame.depth[there]);
+            }
+    return near;
 }
 
 Color opaque(const std::array<double, 3>& rgb) { return {rgb[0], rgb[1], rgb[2], 1}; }
@@ -252,9 +261,11 @@ Color opaque(const std::array<double, 3>& rgb) { return {rgb[0], rgb[1], rgb[2],
 
 LineColor line_color_of(const Surface& surface, const Frame& frame, std::size_t pixel) {
     LineColor line;
+    bool has_cut_away = false;
     if (surface.mesh_lines) {
         const LineStyle& style = surface.mesh_lines->style;
-        const std::uint32_t flags = flags_near(frame, pixel, style.width);
+        const auto [flags, has_hidden] = flags_near(frame, pixel, style.width);
+        has_cut_away = has_cut_away || has_hidden;
         const bool is_open = (flags & pixel_flag::mesh_line_undecided) != 0, is_met = (flags & pixel_flag::mesh_line) != 0;
         line.is_line = is_met || is_open;
         const auto& color = is_open && !is_met && style.undecided_color ? style.undecided_color : style.color;
@@ -263,7 +274,8 @@ LineColor line_color_of(const Surface& surface, const Frame& frame, std::size_t 
     }
     if (surface.contours) {
         const Contours& contours = *surface.contours;
-        const std::uint32_t flags = flags_near(frame, pixel, contours.style.width);
+        const auto [flags, has_hidden] = flags_near(frame, pixel, contours.style.width);
+        has_cut_away = has_cut_away || has_hidden;
         const bool is_open = (flags & pixel_flag::contour_undecided) != 0, is_met = (flags & pixel_flag::contour) != 0;
         const bool has_own = contours.style.undecided_color.has_value();
         if (is_met || (is_open && (has_own || contours.inks.empty()))) {
@@ -277,6 +289,8 @@ LineColor line_color_of(const Surface& surface, const Frame& frame, std::size_t 
                 line.color = opaque(contours.color(static_cast<std::size_t>(nearest - contours.values.begin())));
         }
     }
+    if (has_cut_away && !surface.clip.empty())
+        return {.is_line = true};
     return line;
 }
 

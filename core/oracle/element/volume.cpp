@@ -27,7 +27,8 @@ Vector Volume::position(std::size_t element, const Vector& xi, Matrix* jacobian)
     thread_local std::vector<double> values;
     thread_local std::vector<double> gradients;
     values.resize(n);
-    Vector x = Vector::Zero();
+    // Far from the origin sums of coordinates lose more than a coordinate does: here they do not.
+    Eigen::Matrix<long double, 3, 1> x = Eigen::Matrix<long double, 3, 1>::Zero();
     if (jacobian == nullptr) {
         native::evaluate_modes(space, {xi.x(), xi.y(), xi.z()}, values);
     } else {
@@ -37,11 +38,11 @@ Vector Volume::position(std::size_t element, const Vector& xi, Matrix* jacobian)
     }
     for (std::size_t mode = 0; mode < n; ++mode) {
         const Vector c(coefficients[mode], coefficients[n + mode], coefficients[2 * n + mode]);
-        x += values[mode] * c;
+        x += static_cast<long double>(values[mode]) * c.cast<long double>();
         if (jacobian != nullptr)
             *jacobian += c * Eigen::RowVector3d(gradients[3 * mode], gradients[3 * mode + 1], gradients[3 * mode + 2]);
     }
-    return x;
+    return x.cast<double>();
 }
 
 double Volume::component(std::size_t element, const Vector& xi, std::size_t component, Vector* gradient) const {

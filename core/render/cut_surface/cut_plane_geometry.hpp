@@ -15,6 +15,12 @@
 
 namespace elvis {
 
+/**
+ * Error of a crossing along the ray, relative to the volume's diagonal, from which on its pixel is undecided: across a field
+ * that varies by ten times its range over the volume it is what colours may be off.
+ */
+inline constexpr double most_error_along_ray = 3e-5;
+
 struct CutPlaneGeometry {
     /** The uniform block's rows of four, in its order. */
     std::array<std::array<double, 4>, 10> rows{};
@@ -22,6 +28,9 @@ struct CutPlaneGeometry {
     Vector3 normal{};
     /** Whether the plane's normal as given points away from the viewer. */
     bool is_flipped = false;
+
+    /** How far off along its ray a surface's point is at most, in world length, for its pixel to be decided. */
+    void set_most_error(double length) { rows[9][1] = length; }
 
     /** What was row `row` of the picture becomes its first. Rows are told from the one in the middle: rays stay as they are, to
      * the bit. */

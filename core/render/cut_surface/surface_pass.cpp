@@ -22,11 +22,6 @@ constexpr std::uint32_t tiles_group_size = 32;
 constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
 /** Crossings that a ray is followed through. A formula has few; triangle meshes may have many, one behind the other. */
 constexpr std::uint32_t most_rounds = 256;
-/**
- * Error of a crossing along the ray, relative to the volume's diagonal, from which on its pixel is undecided: across a field
- * that varies by ten times its range over the volume it is what colours may be off.
- */
-constexpr double most_error_along_ray = 3e-5;
 
 struct TilesParameters {
     std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile, boxes_a_tile;

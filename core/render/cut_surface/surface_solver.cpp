@@ -1,3 +1,4 @@
+#include <core/base/float_rounding.hpp>
 #include <core/base/infinity.hpp>
 #include <core/expression/glsl.hpp>
 #include <core/hierarchy/hierarchy.hpp>
@@ -58,6 +59,24 @@ void add_box(const Box& box, const Vector3& middle, std::vector<double>& numbers
     }
 }
 
+/**
+ * Where coordinates of functions begin: 0 for a volume near the origin, else a point near the volume, exact in single
+ * precision, that stays where it is while the volume moves a little.
+ */
+Vector3 origin_near(const std::array<double, 6>& bounds) {
+    double size = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        size = std::max(size, bounds[i + 3] - bounds[i]);
+    }
+    const double step = std::exp2(std::ceil(std::log2(2 * size)));
+    Vector3 origin{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double middle = 0.5 * (bounds[i] + bounds[i + 3]);
+        origin[i] = step > 0 && std::isfinite(step) ? exact_in_float(step * std::round(middle / step)) : 0;
+    }
+    return origin;
+}
+
 double distance(const Vector3& a, const Vector3& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 /**
@@ -111,7 +130,8 @@ std::string solver_key(const CutShape& shape) {
     return key.str();
 }
 
-SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const CutShape& shape)
+SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const CutShape& shape,
+                             const std::array<double, 6>& bounds)
     : m_device(device), m_precision(precision) {
     const ShapeFrame frame = shape_frame(shape, {});
     m_n_rows = 2 + static_cast<std::uint32_t>(frame.rows.size());
@@ -131,7 +151,8 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
                                                    {"CORE_HIT_ROWS", std::to_string(m_hit_rows) + "u"},
                                                    {"CORE_SHAPE_ROWS", std::to_string(m_n_rows)}});
     if (const auto* function = std::get_if<ImplicitSurface>(&shape)) {
-        request.text = implicit_glsl(Expression::implicit(function->expression));
+        m_origin = origin_near(bounds);
+        request.text = implicit_glsl(Expression::implicit(function->expression), m_origin);
     } else if (const auto* surface = std::get_if<MeshSurface>(&shape)) {
         m_mesh = surface->mesh;
         upload(*surface->mesh, shape_middle(shape));
@@ -248,7 +269,7 @@ void SurfaceSolver::begin(const CutShape& shape, const CutPlaneGeometry& view, c
                           double most_error, bool ends_in_box) const {
     const std::array<double, 4>& at = view.rows[6];
     const Vector3 reference = {at[0], at[1], at[2]};
-    const ShapeFrame frame = shape_frame(shape, reference);
+    const ShapeFrame frame = shape_frame(shape, minus(reference, m_origin));
     std::vector<std::array<double, 4>> rows = {
         {bounds[0] - reference[0], bounds[1] - reference[1], bounds[2] - reference[2], most_error},
         {bounds[3] - reference[0], bounds[4] - reference[1], bounds[5] - reference[2], ends_in_box ? 1.0 : 0.0}};

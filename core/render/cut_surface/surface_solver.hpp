@@ -17,16 +17,17 @@ namespace elvis {
 /** Of the tiles of pixels that the kernels of surfaces work on. */
 inline constexpr std::uint32_t surface_tile_height = 16;
 
-/** The same for shapes that one solver serves. */
+/** The same for shapes that one solver serves, in one volume. */
 std::string solver_key(const CutShape& shape);
 
 /**
  * The kernel of one kind of surface and what it reads: good for all shapes with the same solver_key(). Compiled when
- * constructed; independent of volume and field.
+ * constructed; independent of the field.
  */
 class SurfaceSolver {
 public:
-    SurfaceSolver(const Device& device, Precision precision, const CutShape& shape);
+    /** `bounds`: of the volume, min x y z, max x y z. */
+    SurfaceSolver(const Device& device, Precision precision, const CutShape& shape, const std::array<double, 6>& bounds);
 
     /** Boxes of a tile that the kernel writes, one below the other. */
     std::uint32_t boxes_a_tile() const { return surface_tile_height / m_hit_rows; }
@@ -67,6 +68,8 @@ private:
     std::shared_ptr<const void> m_mesh;
     /** Triangles, patches or the like, and the hierarchy over them; of arrows, their elements. */
     std::unique_ptr<RecordBuffer> m_items, m_nodes, m_numbers;
+    /** What coordinates of functions are relative to. */
+    Vector3 m_origin{};
     std::uint32_t m_hit_rows = surface_tile_height;
     std::uint32_t m_n_rows = 0;
     bool m_is_quadric = false;
