@@ -108,12 +108,32 @@ std::array<std::uint32_t, 2> parse_size(const std::string& text) {
     return {width, height};
 }
 
+/** Writes meshes that are in memory alone, and names their files in the scene. `start`: of their paths. */
+void write_meshes(Scene& scene, const std::string& start) {
+    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+        auto* cut = std::get_if<CutShape>(&scene.surfaces[i].geometry);
+        auto* shape = cut == nullptr ? nullptr : std::get_if<MeshSurface>(cut);
+        if (shape == nullptr || !shape->mesh->path.empty())
+            continue;
+        auto mesh = std::make_shared<TriangleMesh>(*shape->mesh);
+        mesh->path = start + "_" + std::to_string(i) + ".obj";
+        std::ofstream file(mesh->path);
+        file.precision(17);
+        for (const Vector3& point : mesh->points)
+            file << "v " << point[0] << ' ' << point[1] << ' ' << point[2] << '\n';
+        for (const auto& triangle : mesh->triangles)
+            file << "f " << triangle[0] + 1 << ' ' << triangle[1] + 1 << ' ' << triangle[2] + 1 << '\n';
+        shape->mesh = mesh;
+    }
+}
+
 void Hunt::write(const Scene& scene, const std::string& name, const std::string& text) {
     const fs::path folder = m_options.folder;
     Scene copy = scene;
     copy.volume = (folder / (name + ".vol.h5")).string();
     if (fs::absolute(copy.volume) != fs::absolute(scene.volume))
         fs::copy_file(scene.volume, copy.volume, fs::copy_options::overwrite_existing);
+    write_meshes(copy, (folder / name).string());
     write_scene(copy, (folder / (name + ".json")).string());
     std::ofstream(folder / (name + ".txt"), std::ios::app) << text;
 }
