@@ -4,12 +4,12 @@
  */
 #pragma once
 
+#include <apps/elvis/view/model/scene.hpp>
 #include <apps/elvis/view/model/volume_facts.hpp>
 #include <apps/serve/answers/histograms.hpp>
 #include <apps/serve/session/scene_edit.hpp>
 
 #include <core/base/temporary_folder.hpp>
-#include <core/scene/scene.hpp>
 
 #include <elvis/elvis.hpp>
 
@@ -19,13 +19,19 @@
 
 namespace elvis::serve {
 
+using view::Camera;
+using view::Scene;
+
 struct Served {
     context library;
     data volume;
     view::VolumeFacts facts;
+    /** With all of its camera said. */
     Scene first;
-    /** A file in the root folder, which need not be there: what pages get and send has paths as this file would. */
-    std::string page_scene;
+    /** The camera is that of a file; else the volume fills the picture, whatever its size. */
+    bool is_placed = false;
+    /** From which scenes see other files; empty: the working directory. */
+    std::string folder;
     ScenePaths paths;
     /** That the server may hold, in all sessions; 0: as many as there are. */
     std::uint64_t most_bytes = 0;
@@ -34,10 +40,13 @@ struct Served {
     /** Sessions that draw or answer what somebody waits for: exact pictures of others make way. */
     mutable std::atomic<int> n_urgent = 0;
 
-    Served(context library_, data volume_, view::VolumeFacts facts_, Scene first_, std::string page_scene_, ScenePaths paths_,
-           std::uint64_t most_bytes_)
+    Served(context library_, data volume_, view::VolumeFacts facts_, Scene first_, bool is_placed_, std::string folder_,
+           ScenePaths paths_, std::uint64_t most_bytes_)
         : library(std::move(library_)), volume(std::move(volume_)), facts(std::move(facts_)), first(std::move(first_)),
-          page_scene(std::move(page_scene_)), paths(std::move(paths_)), most_bytes(most_bytes_) {}
+          is_placed(is_placed_), folder(std::move(folder_)), paths(std::move(paths_)), most_bytes(most_bytes_) {}
+
+    /** What the library calls a scene. */
+    elvis::scene library_scene(const Scene& scene) const { return library.parse_scene(scene.dump(), folder); }
 };
 
 } // namespace elvis::serve

@@ -5,7 +5,6 @@
 #include <apps/serve/session/memory_limit.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/write/write_scene.hpp>
 
 #include <boost/asio/ip/host_name.hpp>
 #include <boost/asio/posix/stream_descriptor.hpp>
@@ -27,44 +26,38 @@ namespace net = boost::asio;
 namespace fs = std::filesystem;
 using net::ip::tcp;
 
-/** What the command line names, as the scene of a file. */
-Scene named_scene(const Options& options) {
+/** A scene file, or files of a volume. */
+bool names_scene(const context& library, const Options& options) {
     const std::string& first = options.files.front();
     if (!fs::exists(first)) {
         throw Error(first, "there is no such file");
     }
-    if (options.files.size() == 1 && is_scene(first)) {
-        return read_scene(first);
-    }
-    Scene scene;
-    scene.volume = first;
-    scene.more_files.assign(options.files.begin() + 1, options.files.end());
-    return scene;
+    return options.files.size() == 1 && nlohmann::json::parse(library.describe_file(first))["kind"] == "scene";
 }
 
 using Open = std::function<data(const std::function<data(const task&)>&)>;
 
 std::shared_ptr<const Served> open_served(const context& library, const Options& options, const Open& open) {
     library.describe_device(); // Says at the start if there is none.
-    const Scene named = named_scene(options);
-    std::vector<std::string> files{named.volume};
-    files.insert(files.end(), named.more_files.begin(), named.more_files.end());
-    data volume = open([&](const task& watch) { return library.open(files, named.plugin, named.plugin_options, watch); });
+    const bool is_scene = names_scene(library, options);
+    const elvis::scene named =
+        is_scene ? library.read_scene(options.files.front()) : library.parse_scene(view::scene_of_files(options.files).dump());
+    data volume = open([&](const task& watch) { return named.open_volume(watch); });
     view::VolumeFacts facts = view::facts_of(volume, library);
-    Scene first = named;
-    if (!is_scene(options.files.front())) {
-        first = view::first_scene(library, volume, named.volume);
-        first.more_files = named.more_files;
-    }
+    elvis::scene first =
+        is_scene ? named.copy() : library.parse_scene(view::first_scene(library, volume, options.files).dump());
+    const bool is_placed = view::is_placed(Scene::parse(first.json()));
+    first.complete_camera(facts.extent());
     const fs::path near_file = fs::absolute(options.files.front()).parent_path();
     const fs::path root = options.root.empty() ? near_file : fs::absolute(options.root);
     if (!fs::is_directory(root)) {
         throw Error(root.string(), "is no folder");
     }
-    const std::string page_scene = (root / "scene.json").lexically_normal().lexically_proximate(fs::current_path()).string();
-    ScenePaths paths(root, nlohmann::json::parse(scene_json(first, page_scene).dump()));
-    auto served = std::make_shared<const Served>(library, std::move(volume), std::move(facts), std::move(first), page_scene,
-                                                 std::move(paths), options.most_memory << 20u);
+    const std::string folder = root.lexically_normal().lexically_proximate(fs::current_path()).string();
+    Scene document = Scene::parse(first.text(folder));
+    ScenePaths paths(root, document);
+    auto served = std::make_shared<const Served>(library, std::move(volume), std::move(facts), std::move(document), is_placed,
+                                                 folder, std::move(paths), options.most_memory << 20u);
     need_memory(*served, 0);
     return served;
 }

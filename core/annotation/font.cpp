@@ -49,18 +49,6 @@ Mask mask_of(const FT_BitmapGlyph glyph) {
 
 } // namespace
 
-std::vector<std::string> default_font_paths() {
-    std::error_code ignored;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", ignored);
-    return {(program.parent_path().parent_path() / "share/elvis/fonts/DejaVuSans.ttf").string(), // a bundle's
-            "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",                                   // Debian, Ubuntu
-            "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",                                 // Fedora
-            "/usr/share/fonts/dejavu/DejaVuSans.ttf",                                            // Red Hat, Alpine
-            "/usr/share/fonts/TTF/DejaVuSans.ttf",                                               // Arch
-            "/usr/share/fonts/truetype/DejaVuSans.ttf",                                          // openSUSE
-            "/usr/local/share/fonts/dejavu/DejaVuSans.ttf"};                                     // FreeBSD
-}
-
 struct Font::Impl {
     std::unique_ptr<FT_LibraryRec_, LibraryDone> library;
     std::unique_ptr<FT_FaceRec_, FaceDone> face;

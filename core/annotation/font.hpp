@@ -5,15 +5,13 @@
 #pragma once
 
 #include <core/annotation/mask.hpp>
+#include <core/base/font_paths.hpp>
 
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace elvis {
-
-/** Where the font is looked for if no file is named, in this order: DejaVu Sans of the common distributions. */
-std::vector<std::string> default_font_paths();
 
 /** One face of a font file. Sizes are the em in pixels, > 0. One thread at a time may use it. */
 class Font {

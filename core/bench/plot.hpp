@@ -31,9 +31,6 @@ struct Plot {
     std::vector<PlotSeries> series;
 };
 
-/** Positions of an axis's ticks in [lower, upper], ascending: 1, 2 or 5 times a power of ten. */
-std::vector<double> plot_ticks(double lower, double upper, bool is_logarithmic);
-
 /** The document's text. */
 std::string to_svg(const Plot& plot);
 

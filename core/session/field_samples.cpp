@@ -56,13 +56,6 @@ std::vector<double> field_samples(Prober& prober, const RuntimeVolume& volume, c
     return values;
 }
 
-double quantile(std::span<const double> sorted, double part) {
-    const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
-}
-
 std::vector<double> percentiles(Prober& prober, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
                                 const Scene& scene, std::span<const double> parts, const TaskControl& control) {
     Scene at_step = scene;

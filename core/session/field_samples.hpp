@@ -6,6 +6,7 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
+#include <core/base/quantile.hpp>
 #include <core/probe/probe.hpp>
 #include <core/scene/scene.hpp>
 
@@ -31,9 +32,6 @@ void need_samples(const RuntimeVolume& volume);
  */
 std::vector<double> field_samples(Prober& prober, const RuntimeVolume& volume, const std::array<double, 6>& bounds,
                                   const Scene& scene, const std::optional<std::string>& field, unsigned piece);
-
-/** The value below which that part of the values lies, which ascend; `part` in [0, 1]. There is at least one value. */
-double quantile(std::span<const double> sorted, double part);
 
 /**
  * Values of the scene's field below which these parts of the volume lie, over the scene's range steps. Throws Error where

@@ -2,7 +2,7 @@
 
 #include <core/annotation/plan.hpp>
 #include <core/base/milliseconds.hpp>
-#include <core/render/frame_schedule.hpp>
+#include <core/render/frame_stage.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
 #include <core/session/still_picture.hpp>

@@ -1,4 +1,5 @@
 // Plots: where ticks and points lie.
+#include <core/base/plot_ticks.hpp>
 #include <core/bench/plot.hpp>
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,5 @@
 /* Both public headers of programs and plugins, in one C99 file. */
+#include <elvis/editing.h>
 #include <elvis/elvis.h>
 #include <elvis/insitu.h>
 #include <elvis/plugin.h>

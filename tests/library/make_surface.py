@@ -10,7 +10,7 @@ for header in sys.argv[2:]:
         text = re.sub(r"/\*.*?\*/", "", file.read(), flags=re.S)
     declared += re.findall(r"ELVIS_EXPORT\s+([^;]+?)\s*(\w+)\(([^;]*?)\);", text, flags=re.S)
 with open(sys.argv[1], "w", encoding="utf-8") as file:
-    file.write("#include <elvis/extract.h>\n#include <elvis/insitu.h>\n")
+    file.write("#include <elvis/editing.h>\n#include <elvis/extract.h>\n#include <elvis/insitu.h>\n")
     for result, name, parameters in declared:
         body = "" if result.strip() == "void" else "return 0;"
         file.write(f"ELVIS_EXPORT {result} {name}({' '.join(parameters.split())}) {{ {body} }}\n")

@@ -19,7 +19,7 @@ VolumeFacts flow_facts(std::uint32_t dimension = 3) {
     volume.path = "flow.h5";
     volume.dimension = dimension;
     volume.bounds = {-1, -2, 0, 3, 2, dimension == 2 ? 0.0 : 1.0};
-    FieldInfo velocity, pressure;
+    FieldFacts velocity, pressure;
     velocity.name = "velocity";
     velocity.n_components = 3;
     pressure.name = "pressure";
@@ -109,17 +109,14 @@ TEST_CASE("A jump is a gap in a line's curve, and both of its values are in the 
 }
 
 TEST_CASE("Numbers are asked of the volume by each field, and of each surface that is shown") {
-    Scene scene;
-    scene.field = "pressure";
-    scene.time_step = 2;
-    SceneSurface boundary{BoundaryFaces{{"inlet"}}}, plane{CutPlane{{1, 0, 0, -0.5}}}, hidden{CutPlane{{0, 1, 0, 0}}},
-        sphere{CutShape(Sphere{{0, 0, 0}, 1})}, isosurfaces{Isosurfaces{}};
-    plane.field = "velocity";
-    plane.clip.push_back({0, 0, 1, 0});
-    hidden.is_shown = false;
-    std::get<Isosurfaces>(isosurfaces.geometry).values = {0.25, 0.5};
-    isosurfaces.color_field = "velocity[0]";
-    scene.surfaces = {boundary, plane, hidden, sphere, isosurfaces};
+    Scene scene = scene_of_files({});
+    scene["field"] = "pressure";
+    scene["volume"]["time_step"] = 2;
+    scene["surfaces"] = {{{"type", "boundary"}, {"groups", {"inlet"}}},
+                         {{"type", "plane"}, {"plane", {1, 0, 0, -0.5}}, {"field", "velocity"}, {"clip", {{0, 0, 1, 0}}}},
+                         {{"type", "plane"}, {"plane", {0, 1, 0, 0}}, {"visible", false}},
+                         {{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 1}},
+                         {{"type", "isosurface"}, {"values", {0.25, 0.5}}, {"color_field", "velocity[0]"}}};
     const std::vector<NumbersQuestion> questions = questions_of(scene, flow_facts());
     REQUIRE(questions.size() == 7);
     CHECK(questions[0].field == "pressure");
@@ -135,7 +132,7 @@ TEST_CASE("Numbers are asked of the volume by each field, and of each surface th
     CHECK(questions[6].field == "velocity[0]");
     CHECK(questions[6].time_step == 2);
     CHECK(questions_of(scene, flow_facts()) == questions);
-    scene.time_step = 1;
+    scene["volume"]["time_step"] = 1;
     CHECK_FALSE(questions_of(scene, flow_facts()) == questions);
 }
 
@@ -164,18 +161,17 @@ TEST_CASE("The table of numbers has all digits, places and what is not certain")
 }
 
 TEST_CASE("Streamlines are added, and their seeds are handles") {
-    Scene scene;
+    Scene scene = scene_of_files({});
     const ItemId item = add(scene, flow_facts(), NewItem::streamlines, 0);
-    REQUIRE(scene.surfaces.size() == 1);
-    REQUIRE(scene.surfaces[0].streamlines);
-    CHECK(scene.surfaces[0].streamlines->flow == "velocity");
+    REQUIRE(scene["surfaces"].size() == 1);
+    CHECK(scene["surfaces"][0]["flow"] == "velocity");
     CHECK(item_label(scene, item) == "Streamlines velocity");
     CHECK(handles_of(scene, item, flow_facts()).empty());
-    scene.surfaces[0].streamlines->seeds = {{0, 0, 0.5}, {1, 0, 0.5}};
+    scene["surfaces"][0]["seeds"] = {{0, 0, 0.5}, {1, 0, 0.5}};
     CHECK(handles_of(scene, item, flow_facts()).size() == 2);
     const Scene moved = with_moved_handle(scene, item, flow_facts(), 1, {2, 1, 0.25});
-    CHECK(moved.surfaces[0].streamlines->seeds[1] == Vector3{2, 1, 0.25});
-    CHECK(moved.surfaces[0].streamlines->seeds[0] == Vector3{0, 0, 0.5});
+    CHECK(moved["surfaces"][0]["seeds"][1] == Json{2.0, 1.0, 0.25});
+    CHECK(moved["surfaces"][0]["seeds"][0] == Json{0, 0, 0.5});
     VolumeFacts scalar = flow_facts();
     scalar.fields.erase(scalar.fields.begin());
     CHECK(flows_of(scalar) == std::vector<std::string>{"grad(pressure)"});

@@ -11,7 +11,6 @@
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/base/output_file.hpp>
-#include <core/scene/scene.hpp>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
@@ -109,10 +108,19 @@ Wanted read_wanted(const context& library, const RenderArguments& all, const std
     return wanted;
 }
 
+/** The same of a file that may be nothing by itself. */
+bool may_be_scene(const context& library, const std::string& input) {
+    try {
+        return is_scene(library, input);
+    } catch (const error&) {
+        return false;
+    }
+}
+
 /** Several files that are one foreign data set. */
 Wanted read_data_set(const context& library, RenderArguments arguments) {
     for (const std::string& input : arguments.inputs) {
-        if (::elvis::is_scene(input)) {
+        if (may_be_scene(library, input)) {
             throw UsageError("render", "'" + input + "' is a scene, and '" + arguments.inputs.front() +
                                            "' before it is none: files of one data set, or scenes, are drawn together");
         }

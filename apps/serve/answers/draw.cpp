@@ -1,9 +1,6 @@
 #include "draw.hpp"
 #include "images.hpp"
 
-#include <core/render/frame.hpp>
-#include <core/scene/write/write_scene.hpp>
-
 #include <chrono>
 
 namespace elvis::serve {
@@ -11,11 +8,6 @@ namespace elvis::serve {
 namespace {
 
 using nlohmann::json;
-
-/** All by which a picture says of a pixel that it may be wrong: core/scene/buffers.md. */
-constexpr std::uint32_t doubts = pixel_flag::contour_undecided | pixel_flag::mesh_line_undecided | pixel_flag::newton_failure |
-                                 pixel_flag::isosurface_undecided | pixel_flag::volume_tolerance | pixel_flag::undecided |
-                                 pixel_flag::work_limit | pixel_flag::range_too_fine | pixel_flag::overlap;
 
 double since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -37,17 +29,12 @@ json facts_of_picture(const picture& drawn, const elvis_picture_info& info) {
 
 } // namespace
 
-elvis::scene library_scene(const Served& served, const Scene& scene) {
-    // Paths of scenes are seen from the working directory.
-    return served.library.parse_scene(scene_json(scene, "scene").dump());
-}
-
 Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSchedule::Step& step, const Line& line,
                         const task& watch) {
     auto options = detail::sized<elvis_screen_options>();
     options.flags = ELVIS_SCREEN_COARSE | (step.with_lines ? 0u : ELVIS_SCREEN_NO_LINES);
     options.divisor = step.divisor;
-    const picture drawn = served.volume.render_for_screen(library_scene(served, scene), options, watch);
+    const picture drawn = served.volume.render_for_screen(served.library_scene(scene), options, watch);
     const elvis_picture_info info = drawn.info();
     const auto start = std::chrono::steady_clock::now();
     Jpeg jpeg = jpeg_of(drawn.read<std::uint8_t>(ELVIS_CHANNEL_COLOR), info.width, info.height, line.shrink, line.quality);
@@ -58,7 +45,7 @@ Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSch
 Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch) {
     auto options = detail::sized<elvis_render_options>();
     options.flags = ELVIS_RENDER_COLOR_ONLY;
-    const picture drawn = served.volume.render(library_scene(served, scene), options, watch);
+    const picture drawn = served.volume.render(served.library_scene(scene), options, watch);
     const elvis_picture_info info = drawn.info();
     json facts = facts_of_picture(drawn, info);
     facts["image"] = facts["size"];
@@ -67,13 +54,13 @@ Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch
 }
 
 Encoded draw_undecided(const Served& served, const Scene& scene, const task& watch) {
-    const picture drawn = served.volume.render(library_scene(served, scene), detail::sized<elvis_render_options>(), watch);
+    const picture drawn = served.volume.render(served.library_scene(scene), detail::sized<elvis_render_options>(), watch);
     const elvis_picture_info info = drawn.info();
     const std::vector<std::uint32_t> flags = drawn.read<std::uint32_t>(ELVIS_CHANNEL_FLAGS);
     std::string bits((flags.size() + 7) / 8, '\0');
     std::size_t n_undecided = 0;
     for (std::size_t i = 0; i < flags.size(); ++i) {
-        if ((flags[i] & doubts) != 0) {
+        if ((flags[i] & ELVIS_PIXEL_DOUBTS) != 0) {
             bits[i / 8] = static_cast<char>(static_cast<unsigned char>(bits[i / 8]) | (0x80u >> (i % 8)));
             ++n_undecided;
         }
@@ -84,7 +71,7 @@ Encoded draw_undecided(const Served& served, const Scene& scene, const task& wat
 }
 
 json pick_at(const Served& served, const Scene& scene, double column, double row, const task& watch) {
-    return json::parse(served.volume.pick(library_scene(served, scene), column, row, watch));
+    return json::parse(served.volume.pick(served.library_scene(scene), column, row, watch));
 }
 
 } // namespace elvis::serve

@@ -4,9 +4,8 @@
  */
 #pragma once
 
+#include <apps/elvis/view/model/frame_schedule.hpp>
 #include <apps/serve/served.hpp>
-
-#include <core/render/frame_schedule.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -14,6 +13,9 @@
 #include <string>
 
 namespace elvis::serve {
+
+using view::FrameSchedule;
+using view::FrameStage;
 
 /** A picture as bytes, and what is told about it. */
 struct Encoded {
@@ -29,9 +31,6 @@ struct Line {
     std::uint32_t shrink = 1;
     int quality = 80;
 };
-
-/** What the library calls a scene. */
-elvis::scene library_scene(const Served& served, const Scene& scene);
 
 /** A JPEG of the step. */
 Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSchedule::Step& step, const Line& line,

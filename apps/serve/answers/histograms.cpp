@@ -1,8 +1,6 @@
 #include "histograms.hpp"
 #include "draw.hpp"
 
-#include <core/scene/surface_distance.hpp>
-
 #include <chrono>
 
 namespace elvis::serve {
@@ -13,31 +11,24 @@ namespace {
 constexpr std::size_t most_histograms = 100;
 constexpr std::chrono::milliseconds patience{50};
 
-/** What its values depend on. */
-std::string key_of(const Scene& scene, const std::string& field) {
-    std::string key = std::to_string(scene.time_step) + "|" + with_distances(field, scene.surfaces);
-    if (scene.warp) {
-        const SceneWarp& warp = *scene.warp;
-        key += "|" + nlohmann::json{warp.field, warp.imaginary.value_or(""), warp.factor, warp.phase}.dump();
-    }
-    return key;
-}
-
 } // namespace
 
 nlohmann::json Histograms::grow(const Served& served, const Scene& scene, const std::string& field, const task& watch) {
-    const std::string key = key_of(scene, field);
+    const elvis::scene shown = served.library_scene(scene);
+    const std::string text = shown.expression(field);
+    const std::uint32_t time_step = view::time_step_of(scene);
+    // What its values depend on.
+    const std::string key = std::to_string(time_step) + "|" + text + "|" + view::part_of(scene, "warp").dump();
     const std::lock_guard lock(m_mutex);
     auto found = m_entries.find(key);
     if (found == m_entries.end()) {
-        const elvis_range range = served.volume.range(with_distances(field, scene.surfaces), scene.time_step);
+        const elvis_range range = served.volume.range(text, time_step);
         if (m_entries.size() >= most_histograms) {
             m_entries.clear();
         }
         found = m_entries.emplace(key, Entry{view::Histogram(range.minimum, range.maximum)}).first;
     }
     Entry& entry = found->second;
-    const elvis::scene shown = library_scene(served, scene);
     const auto end = std::chrono::steady_clock::now() + patience;
     while (entry.n_pieces < ELVIS_SAMPLE_PIECES && !(watch.is_cancelled && watch.is_cancelled()) &&
            std::chrono::steady_clock::now() < end) {

@@ -5,8 +5,7 @@
 #pragma once
 
 #include <apps/elvis/view/model/histogram.hpp>
-
-#include <core/scene/scene.hpp>
+#include <apps/elvis/view/model/scene.hpp>
 
 #include <elvis/elvis.hpp>
 
@@ -27,7 +26,7 @@ public:
      * Samples the field for a twentieth of a second, if there is something left to sample, and tells what is known: `lower` and
      * `upper` of the field, `bins` between them as fractions of the largest one, `quantiles` (2, 10, 90, 98 %), `is_complete`.
      */
-    nlohmann::json grow(const Served& served, const Scene& scene, const std::string& field, const task& watch);
+    nlohmann::json grow(const Served& served, const view::Scene& scene, const std::string& field, const task& watch);
 
 private:
     struct Entry {

@@ -3,8 +3,6 @@
 #include <apps/elvis/answers/sample_curve.hpp>
 #include <apps/elvis/answers/sample_table.hpp>
 
-#include <core/scene/surface_distance.hpp>
-
 #include <optional>
 #include <sstream>
 
@@ -14,13 +12,14 @@ namespace {
 
 using nlohmann::json;
 
-data displaced(const Served& served, const SceneWarp& warp, std::uint32_t time_step, const task& watch) {
+data displaced(const Served& served, const json& warp, std::uint32_t time_step, const task& watch) {
+    const std::string field = warp["field"], imaginary = warp.value("imaginary", "");
     auto how = detail::sized<elvis_warp>();
     how.time_step = time_step;
-    how.field = warp.field.c_str();
-    how.imaginary = warp.imaginary ? warp.imaginary->c_str() : nullptr;
-    how.factor = warp.factor;
-    how.phase = warp.phase;
+    how.field = field.c_str();
+    how.imaginary = detail::or_null(imaginary);
+    how.factor = warp.value("factor", 1.0);
+    how.phase = warp.value("phase", 0.0);
     return served.volume.warp(how, watch);
 }
 
@@ -29,13 +28,14 @@ json element_json(const std::optional<commands::SampledBreak::Side>& side) { ret
 } // namespace
 
 json values_along(const Served& served, const Scene& scene, const LineWishes& wishes, const task& watch) {
-    commands::SampleWishes asked{{}, scene.time_step, false};
+    const elvis::scene shown = served.library_scene(scene);
+    commands::SampleWishes asked{{}, view::time_step_of(scene), false};
     for (const std::string& field : wishes.fields) {
-        asked.fields.push_back(with_distances(field, scene.surfaces));
+        asked.fields.push_back(shown.expression(field));
     }
     std::optional<data> warped;
-    if (scene.warp) {
-        warped = displaced(served, *scene.warp, scene.time_step, watch);
+    if (scene.contains("warp")) {
+        warped = displaced(served, scene["warp"], asked.time_step, watch);
     }
     const commands::SampleTable table = commands::sample(
         warped ? *warped : served.volume, commands::points_along({wishes.from, wishes.to}, wishes.count), asked, watch);

@@ -1,19 +1,13 @@
 #include "palette.hpp"
 
-#include <core/scene/color/color_map.hpp>
-
 namespace elvis::serve {
 
-nlohmann::json palette_of(const SceneColorMap& map) {
-    constexpr double tolerance = 0.01;
-    SceneColorMap plain = map;
-    plain.range.reset();
-    plain.is_logarithmic = false;
-    auto points = nlohmann::json::array();
-    for (const ColorTable::Point& point : make_color_table(plain, {0, 1}, tolerance).points) {
-        points.push_back({point.value, point.rgb[0], point.rgb[1], point.rgb[2]});
+nlohmann::json palette_of(const Served& served, nlohmann::json map) {
+    for (const char* const key : {"range", "scale", "below", "above", "nan"}) {
+        map.erase(key);
     }
-    return points;
+    const Scene scene{{"version", 1}, {"color_map", map}};
+    return nlohmann::json::parse(served.library_scene(scene).transfer({0, 1}, 1))["color"];
 }
 
 } // namespace elvis::serve

@@ -4,13 +4,13 @@
  */
 #pragma once
 
-#include <core/scene/scene.hpp>
+#include <apps/serve/served.hpp>
 
 #include <nlohmann/json.hpp>
 
 namespace elvis::serve {
 
-/** [position, r, g, b] from 0 to 1, linear in between and within a hundredth of a colour of the map. */
-nlohmann::json palette_of(const SceneColorMap& map);
+/** Of a scene's "color_map": [position, r, g, b] from 0 to 1, linear in between and within 1e-4 of a colour of the map. */
+nlohmann::json palette_of(const Served& served, nlohmann::json map);
 
 } // namespace elvis::serve

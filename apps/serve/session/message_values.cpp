@@ -31,7 +31,7 @@ double number(const json& message, const char* key, double least, double most) {
 
 double pixels(const json& message, const char* key) { return number(message, key, -most_pixels_away, most_pixels_away); }
 
-PicturePoint place_of(const json& message, const char* key) {
+view::PicturePoint place_of(const json& message, const char* key) {
     const auto numbers = message.at(key).get<std::vector<double>>();
     // What is no number compares false.
     if (numbers.size() != 2 || !std::ranges::all_of(numbers, [](double x) { return std::abs(x) <= most_pixels_away; })) {
@@ -61,14 +61,11 @@ std::array<std::uint32_t, 2> size_of(const json& message) {
             static_cast<std::uint32_t>(number(message, "height", 1, most_pixels_across))};
 }
 
-void check_samples(const Scene& scene, const std::array<std::uint32_t, 2>& size) {
-    if (std::uint64_t{size[0]} * size[1] * scene.samples * scene.samples > most_samples) {
+void check_samples(const view::Scene& scene, const std::array<std::uint32_t, 2>& size) {
+    const std::uint64_t samples = view::part_of(scene, "image").value("samples", 1u);
+    if (std::uint64_t{size[0]} * size[1] * samples * samples > most_samples) {
         throw Error("the picture would have too many samples: 'image.samples' times its size");
     }
-}
-
-PictureSize picture_size(const Scene& scene) {
-    return {static_cast<double>(scene.size[0]), static_cast<double>(scene.size[1])};
 }
 
 } // namespace elvis::serve

@@ -4,9 +4,7 @@
  */
 #pragma once
 
-#include <core/base/vector3.hpp>
-#include <core/scene/camera_ray.hpp>
-#include <core/scene/scene.hpp>
+#include <apps/elvis/view/model/scene.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -21,14 +19,13 @@ inline constexpr std::uint32_t most_pixels_across = 8192;
 double number(const nlohmann::json& message, const char* key, double least, double most);
 /** A coordinate in the picture, or a movement. */
 double pixels(const nlohmann::json& message, const char* key);
-PicturePoint place_of(const nlohmann::json& message, const char* key);
+view::PicturePoint place_of(const nlohmann::json& message, const char* key);
 Vector3 vector_of(const nlohmann::json& message, const char* key);
 Vector3 vector_of(const nlohmann::json& numbers);
 /** Of "width" and "height". */
 std::array<std::uint32_t, 2> size_of(const nlohmann::json& message);
 
 /** A picture of that size must not have too many samples in all. */
-void check_samples(const Scene& scene, const std::array<std::uint32_t, 2>& size);
-PictureSize picture_size(const Scene& scene);
+void check_samples(const view::Scene& scene, const std::array<std::uint32_t, 2>& size);
 
 } // namespace elvis::serve

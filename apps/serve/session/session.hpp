@@ -109,8 +109,10 @@ private:
     /** Throws Error if there would be nothing to see. */
     void move_camera(const Camera& camera);
     void set_camera(const Camera& camera, bool is_moving);
-    /** A scene of the page, if the library takes it; throws what it says otherwise. */
+    /** A scene of the page, in full form and with a whole camera, if the library takes it; throws what it says otherwise. */
     Scene judged(const Json& scene) const;
+    /** As near as it sees all of the volume. */
+    Camera fitted(const Camera& camera) const;
     void edit(const std::string& what, const Json& scene);
     void edited(bool is_moving);
     /** A picture may have that size: see message_values.hpp, memory_limit.hpp. */
@@ -122,7 +124,6 @@ private:
     view::ItemId item_of(const Json& message) const;
     /** What a message names, or what the scene shows. */
     std::string field_of(const Json& message) const;
-    Json page_json() const;
     Json overlay_json() const;
     Json hello() const;
     Json state() const;

@@ -5,7 +5,6 @@
 #include <apps/serve/answers/palette.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/write/write_scene.hpp>
 
 #include <algorithm>
 
@@ -40,13 +39,15 @@ Session::Json Session::pick(const Json& message) {
 }
 
 std::string Session::field_of(const Json& message) const {
-    return message.value("field", m_model.scene().field.value_or(m_served->facts.fields.at(0).name));
+    return message.value("field",
+                         view::said<std::string>(m_model.scene(), "field").value_or(m_served->facts.fields.at(0).name));
 }
 
 Session::Json Session::range(const Json& message) {
     post(message, "finding a range",
          [served = m_served, field = field_of(message)](const Scene& scene, const task&) -> Encoded {
-             const elvis_range found = served->volume.range(field, scene.time_step);
+             const std::string text = served->library_scene(scene).expression(field);
+             const elvis_range found = served->volume.range(text, view::time_step_of(scene));
              return {{{"minimum", found.minimum}, {"maximum", found.maximum}}, {}};
          });
     return {};
@@ -63,13 +64,13 @@ Session::Json Session::histogram(const Json& message) {
 }
 
 Session::Json Session::palette(const Json& message) {
-    Json scene = page_json();
+    Json scene = m_model.scene();
     scene["color_map"] = message.at("color_map");
     // It may be in a file.
     post(
         message, "reading a colour map",
-        [map = judged(scene).color_map](const Scene&, const task&) -> Encoded {
-            return {{{"points", palette_of(map)}}, {}};
+        [served = m_served, map = view::part_of(judged(scene), "color_map")](const Scene&, const task&) -> Encoded {
+            return {{{"points", palette_of(*served, map)}}, {}};
         },
         false);
     return {};
@@ -100,8 +101,8 @@ Session::Json Session::undecided(const Json& message) {
 }
 
 Session::Json Session::save_scene(const Json&) {
-    return {{"scene", Json::parse(scene_json(m_model.scene(), m_served->page_scene).dump())},
-            {"text", scene_json(m_model.scene(), m_served->page_scene).dump(2)}};
+    const std::string text = m_served->library_scene(m_model.scene()).text(m_served->folder);
+    return {{"scene", Json::parse(text)}, {"text", text}};
 }
 
 Session::Json Session::save_picture(const Json& message) {
@@ -111,13 +112,7 @@ Session::Json Session::save_picture(const Json& message) {
     }
     check_size(m_model.scene(), size);
     post(message, "drawing a picture to save", [served = m_served, size](const Scene& scene, const task& watch) {
-        Scene resized = scene;
-        // The shift is in pixels: a larger picture has what is looked at in the same place.
-        for (double& shift : resized.camera.image_shift) {
-            shift *= static_cast<double>(size[1]) / scene.size[1];
-        }
-        resized.size = size;
-        return draw_exactly(*served, resized, watch);
+        return draw_exactly(*served, view::resized(scene, size), watch);
     });
     return {};
 }

@@ -87,7 +87,7 @@ void Session::tell_state() {
 
 void Session::tell_camera() {
     if (!m_companions.empty()) {
-        tell_companions({{"type", "camera"}, {"camera", page_json()["camera"]}});
+        tell_companions({{"type", "camera"}, {"camera", m_model.scene()["camera"]}});
     }
 }
 

@@ -4,7 +4,6 @@
 #include <apps/elvis/view/model/camera_motion.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/picture_room.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -78,16 +77,24 @@ void Session::receive(Member from, std::string_view text) {
 
 Session::Json Session::resize(const Json& message) {
     check_size(m_model.scene(), size_of(message));
-    if (m_model.scene().size == size_of(message)) {
+    if (view::size_of(m_model.scene()) == size_of(message)) {
         return Json::object();
     }
     m_model.set_size(size_of(message));
-    if (m_is_first_view && !is_placed(m_served->first.camera)) {
-        m_model.set_camera(fitted(m_model.camera(), m_served->facts.extent(), room_for_volume(m_model.scene())));
+    if (m_is_first_view && !m_served->is_placed) {
+        m_model.set_camera(fitted(m_model.camera()));
     }
     changed(false);
     tell_state();
     return Json::object();
+}
+
+Camera Session::fitted(const Camera& camera) const {
+    Scene scene = m_model.scene();
+    view::say_camera(scene["camera"], camera);
+    elvis::scene placed = m_served->library_scene(scene);
+    placed.fit_camera(m_served->facts.extent());
+    return view::camera_of(Json::parse(placed.json("/camera")));
 }
 
 void Session::set_camera(const Camera& camera, bool is_moving) {
@@ -109,18 +116,20 @@ void Session::move_camera(const Camera& camera) {
 }
 
 Session::Json Session::orbit(const Json& message) {
-    move_camera(view::orbited(m_model.camera(), picture_size(m_model.scene()), {pixels(message, "dx"), pixels(message, "dy")}));
+    move_camera(
+        view::orbited(m_model.camera(), view::picture_size(m_model.scene()), {pixels(message, "dx"), pixels(message, "dy")}));
     return Json::object();
 }
 
 Session::Json Session::pan(const Json& message) {
-    move_camera(view::panned(m_model.camera(), picture_size(m_model.scene()), {pixels(message, "dx"), pixels(message, "dy")}));
+    move_camera(
+        view::panned(m_model.camera(), view::picture_size(m_model.scene()), {pixels(message, "dx"), pixels(message, "dy")}));
     return Json::object();
 }
 
 Session::Json Session::zoom(const Json& message) {
-    move_camera(view::zoomed(m_model.camera(), picture_size(m_model.scene()), {pixels(message, "x"), pixels(message, "y")},
-                             number(message, "factor", 0.01, 100)));
+    move_camera(view::zoomed(m_model.camera(), view::picture_size(m_model.scene()),
+                             {pixels(message, "x"), pixels(message, "y")}, number(message, "factor", 0.01, 100)));
     return Json::object();
 }
 
@@ -131,10 +140,8 @@ Session::Json Session::roll(const Json& message) {
 
 Session::Json Session::look_from(const Json& message) {
     const auto name = message.at("name").get<std::string>();
-    const PictureRoom room = room_for_volume(m_model.scene());
-    const VolumeExtent extent = m_served->facts.extent();
     if (name == "all") {
-        set_camera(fitted(m_model.camera(), extent, room), false);
+        set_camera(fitted(m_model.camera()), false);
         return Json::object();
     }
     const auto& views = view::standard_views();
@@ -142,7 +149,7 @@ Session::Json Session::look_from(const Json& message) {
     if (found == views.end()) {
         throw Error("there is no view '" + name.substr(0, 40) + "'");
     }
-    set_camera(view::from_standard_view(m_model.camera(), *found, extent, room), false);
+    set_camera(fitted(view::from_standard_view(m_model.camera(), *found)), false);
     return Json::object();
 }
 
@@ -153,10 +160,9 @@ Session::Json Session::project(const Json& message) {
 }
 
 Session::Json Session::place_camera(const Json& message) {
-    Json scene = page_json();
+    Json scene = m_model.scene();
     scene["camera"].merge_patch(message.at("camera"));
-    const Scene wanted = judged(scene);
-    move_camera(resolve_camera(wanted, m_served->facts.extent(), {}));
+    move_camera(view::camera_of(judged(scene)["camera"]));
     return Json::object();
 }
 

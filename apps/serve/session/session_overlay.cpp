@@ -16,13 +16,13 @@ using nlohmann::json;
 
 constexpr std::size_t most_marked_points = 16;
 
-json place_json(const Camera& camera, const PictureSize& size, const Vector3& point) {
-    const std::optional<PicturePoint> place = view::project(camera, size, point);
+json place_json(const Camera& camera, const view::PictureSize& size, const Vector3& point) {
+    const std::optional<view::PicturePoint> place = view::project(camera, size, point);
     return place ? json(*place) : json();
 }
 
 /** The direction in the picture in which a handle goes that moves along a line; null where it is seen from its end. */
-json way_json(const view::Handle& handle, const Camera& camera, const PictureSize& size) {
+json way_json(const view::Handle& handle, const Camera& camera, const view::PictureSize& size) {
     if (handle.kind != view::Handle::Kind::along) {
         return {};
     }
@@ -42,7 +42,7 @@ json way_json(const view::Handle& handle, const Camera& camera, const PictureSiz
 
 Session::Json Session::overlay_json() const {
     const Camera camera = m_model.camera();
-    const PictureSize size = picture_size(m_model.scene());
+    const view::PictureSize size = view::picture_size(m_model.scene());
     Json handles = Json::array();
     if (const auto item = m_model.selection()) {
         for (const view::Handle& handle : view::handles_of(m_model.scene(), *item, m_served->facts)) {
@@ -90,14 +90,12 @@ Session::Json Session::drag(const Json& message) {
     if (index >= handles.size()) {
         throw Error("the item has no such handle");
     }
-    const Vector3 position = view::dragged_to(handles[index], m_model.camera(), picture_size(m_model.scene()),
+    const Vector3 position = view::dragged_to(handles[index], m_model.camera(), view::picture_size(m_model.scene()),
                                               place_of(message, "from"), place_of(message, "to"));
     if (!std::isfinite(dot(position, position))) {
         throw Error("the handle would be too far away");
     }
-    Scene scene = view::with_moved_handle(before, *item, m_served->facts, index, position);
-    scene.camera = m_model.scene().camera;
-    scene.size = m_model.scene().size;
+    Scene scene = m_model.as_seen(view::with_moved_handle(before, *item, m_served->facts, index, position));
     const std::string what = "move " + view::item_kind_name(scene, *item);
     if (!m_taken) {
         m_taken = m_model.scene();

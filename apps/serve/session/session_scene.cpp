@@ -5,8 +5,6 @@
 #include <apps/elvis/view/model/camera_motion.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/color/transfer.hpp>
-#include <core/scene/write/write_scene.hpp>
 
 #include <algorithm>
 
@@ -19,27 +17,12 @@ using nlohmann::json;
 /** Of all steps of undo of a session, as text. */
 constexpr std::size_t most_history_bytes = std::size_t{4} << 20u;
 
-constexpr std::array<const char*, 4> kinds = {"surface", "volume", "light", "hidden light"};
-
-/** Where a scene's JSON has it, as a JSON Pointer: lights that are off come after those that are on. */
-std::string pointer_of(const Scene& scene, const view::ItemId& item) {
-    const std::size_t n_lit = scene.lighting ? scene.lighting->lights.size() : 0;
-    switch (item.kind) {
-    case view::ItemKind::surface:
-        return "/surfaces/" + std::to_string(item.index);
-    case view::ItemKind::volume:
-        return "/volume_rendering";
-    case view::ItemKind::light:
-        return "/lighting/lights/" + std::to_string(item.index);
-    default:
-        return "/lighting/lights/" + std::to_string(n_lit + item.index);
-    }
-}
+constexpr std::array<const char*, 3> kinds = {"surface", "volume", "light"};
 
 json item_json(const Scene& scene, const view::ItemId& item) {
     return {{"kind", kinds[static_cast<std::size_t>(item.kind)]},
             {"index", item.index},
-            {"pointer", pointer_of(scene, item)},
+            {"pointer", view::pointer_of(item)},
             {"label", view::item_label(scene, item)},
             {"name", view::item_kind_name(scene, item)},
             {"shown", view::is_shown(scene, item)}};
@@ -49,27 +32,26 @@ json name_or_null(const std::optional<std::string>& name) { return name ? json(*
 
 } // namespace
 
-Session::Json Session::page_json() const { return Json::parse(scene_json(m_model.scene(), m_served->page_scene).dump()); }
-
 Scene Session::judged(const Json& scene) const {
     m_served->paths.check(scene);
-    const std::string folder = std::filesystem::path(m_served->page_scene).parent_path().string();
-    m_served->library.parse_scene(scene.dump(), folder);
-    Scene wanted = scene_of(scene, m_served->page_scene);
-    if (wanted.size[0] > most_pixels_across || wanted.size[1] > most_pixels_across) {
+    elvis::scene wanted = m_served->library_scene(scene);
+    wanted.complete_camera(m_served->facts.extent());
+    Scene full = Json::parse(wanted.text(m_served->folder));
+    const auto size = view::size_of(full);
+    if (size[0] > most_pixels_across || size[1] > most_pixels_across) {
         throw Error("'image.size' is larger than the page can be");
     }
-    check_size(wanted, wanted.size);
-    if (wanted.time_step >= m_served->facts.times.size() && wanted.time_step > 0) {
+    check_size(full, size);
+    const std::uint32_t time_step = view::time_step_of(full);
+    if (time_step >= m_served->facts.times.size() && time_step > 0) {
         throw Error("the volume has " + std::to_string(m_served->facts.times.size()) + " time steps");
     }
-    return wanted;
+    return full;
 }
 
 void Session::edit(const std::string& what, const Json& scene) {
     Scene wanted = judged(scene);
-    elvis::set_camera(wanted.camera, resolve_camera(wanted, m_served->facts.extent(), {}));
-    m_is_first_view = m_is_first_view && scene.value("camera", Json()) == page_json()["camera"];
+    m_is_first_view = m_is_first_view && scene.value("camera", Json()) == m_model.scene()["camera"];
     m_taken.reset();
     m_model.edit(what, std::move(wanted));
     // The longer its scenes, the fewer steps.
@@ -80,7 +62,7 @@ void Session::edit(const std::string& what, const Json& scene) {
 void Session::check_size(const Scene& scene, const std::array<std::uint32_t, 2>& size) const {
     check_samples(scene, size);
     const auto n_pixels = [](const std::array<std::uint32_t, 2>& of) { return std::uint64_t{of[0]} * of[1]; };
-    if (n_pixels(size) > n_pixels(m_model.scene().size)) {
+    if (n_pixels(size) > n_pixels(view::size_of(m_model.scene()))) {
         need_memory(*m_served, picture_bytes(n_pixels(size)));
     }
 }
@@ -100,7 +82,7 @@ void Session::edited(bool is_moving) {
 }
 
 Session::Json Session::set(const Json& message) {
-    Json scene = page_json();
+    Json scene = m_model.scene();
     const auto pointer = message.at("pointer").get<std::string>();
     set_at(scene, pointer, message.value("value", Json()));
     edit(message.value("name", pointer), scene);
@@ -108,7 +90,7 @@ Session::Json Session::set(const Json& message) {
 }
 
 Session::Json Session::merge(const Json& message) {
-    Json scene = page_json();
+    Json scene = m_model.scene();
     scene.merge_patch(message.at("patch"));
     edit(message.value("name", "scene"), scene);
     return Json::object();
@@ -117,9 +99,9 @@ Session::Json Session::merge(const Json& message) {
 Session::Json Session::load(const Json& message) {
     Json scene = message.at("scene");
     if (scene.is_object() && !scene.contains("volume")) {
-        scene["volume"] = page_json()["volume"];
+        scene["volume"] = m_model.scene()["volume"];
     }
-    const auto size = m_model.scene().size;
+    const auto size = view::size_of(m_model.scene());
     m_model.end_gesture();
     edit("load a scene", scene);
     m_model.end_gesture();
@@ -223,7 +205,7 @@ Session::Json Session::state() const {
     }
     return {{"type", "state"},
             {"revision", m_model.revision()},
-            {"scene", page_json()},
+            {"scene", scene},
             {"items", std::move(items)},
             {"addable", std::move(addable)},
             {"undo", name_or_null(m_model.undo_name())},
@@ -235,9 +217,10 @@ Session::Json Session::hello() const { return {{"type", "hello"}, {"session", m_
 Session::Json Session::volume() const {
     const view::VolumeFacts& facts = m_served->facts;
     Json fields = Json::array();
-    for (const FieldInfo& field : facts.fields) {
+    for (const view::FieldFacts& field : facts.fields) {
         fields.push_back({{"name", field.name}, {"unit", field.unit}, {"components", field.n_components}});
     }
+    const Json usual = Json::parse(m_served->library.make_scene().transfer({0, 1}, facts.diagonal()));
     Json views = Json::array();
     for (const view::StandardView& view : view::standard_views()) {
         views.push_back(view.name);
@@ -249,7 +232,7 @@ Session::Json Session::volume() const {
             {"fields", std::move(fields)},
             {"times", facts.times},
             {"views", std::move(views)},
-            {"usual_density", default_density(facts.diagonal())}};
+            {"usual_density", usual["density"].back()[1]}};
 }
 
 } // namespace elvis::serve

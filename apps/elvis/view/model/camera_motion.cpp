@@ -117,11 +117,11 @@ const std::vector<StandardView>& standard_views() {
     return views;
 }
 
-Camera from_standard_view(const Camera& camera, const StandardView& view, const VolumeExtent& extent, const PictureRoom& room) {
+Camera from_standard_view(const Camera& camera, const StandardView& view) {
     Camera result = camera;
     result.eye = plus(camera.look_at, view.to_eye);
     result.up = view.up;
-    return fitted(result, extent, room);
+    return result;
 }
 
 } // namespace elvis::view

@@ -4,10 +4,7 @@
  */
 #pragma once
 
-#include <core/base/vector3.hpp>
-#include <core/render/frame.hpp>
-#include <core/scene/camera_ray.hpp>
-#include <core/scene/resolve.hpp>
+#include "camera.hpp"
 
 #include <array>
 #include <optional>
@@ -39,7 +36,7 @@ struct StandardView {
     Vector3 to_eye, up;
 };
 const std::vector<StandardView>& standard_views();
-/** The whole of the volume from there. */
-Camera from_standard_view(const Camera& camera, const StandardView& view, const VolumeExtent& extent, const PictureRoom& room);
+/** From there, at what the camera looks at; to be fitted to the volume. */
+Camera from_standard_view(const Camera& camera, const StandardView& view);
 
 } // namespace elvis::view

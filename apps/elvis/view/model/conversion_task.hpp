@@ -5,7 +5,8 @@
 #pragma once
 
 #include <core/base/cancel.hpp>
-#include <core/convert/convert.hpp>
+
+#include <nlohmann/json.hpp>
 
 #include <atomic>
 #include <mutex>
@@ -18,7 +19,8 @@ namespace elvis::view {
 
 struct ConversionResult {
     std::string output;
-    ConvertReport report;
+    /** Of elvis_convert. */
+    nlohmann::json report;
     /** What plugin and converter warned of. */
     std::string said;
     /** If not empty, there is no output. */

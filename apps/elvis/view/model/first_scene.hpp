@@ -4,15 +4,16 @@
  */
 #pragma once
 
-#include <core/scene/scene.hpp>
+#include "scene.hpp"
 
 #include <elvis/elvis.hpp>
 
 #include <string>
+#include <vector>
 
 namespace elvis::view {
 
-/** Of open data whose file is `path`: the surfaces of `elvis render`, with annotation, and lit where there are faces. */
-Scene first_scene(const context& library, const data& volume, const std::string& path);
+/** Of open data of these files: the surfaces of `elvis render`, with annotation, and lit where there are faces. */
+Scene first_scene(const context& library, const data& volume, const std::vector<std::string>& files);
 
 } // namespace elvis::view

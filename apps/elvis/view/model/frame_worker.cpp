@@ -93,7 +93,7 @@ DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
     answer.revision = request.revision;
     try {
         answer.picture = m_session->draw(request.scene, request.step);
-        answer.picture.camera = camera_of(request.scene.camera);
+        answer.picture.camera = camera_of(part_of(request.scene, "camera"));
     } catch (const cancelled&) {
         throw;
     } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "frame_schedule.hpp"
 #include "session.hpp"
 
 #include <chrono>

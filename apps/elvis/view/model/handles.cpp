@@ -1,5 +1,7 @@
 #include "handles.hpp"
 
+#include <core/base/bounds.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,24 +9,20 @@ namespace elvis::view {
 
 namespace {
 
+using Plane = std::array<double, 4>;
+
 constexpr double arrow_length = 0.15; ///< of the volume's diagonal
 
-Vector3 normal_of(const CutPlane& plane) { return unit({plane.plane[0], plane.plane[1], plane.plane[2]}); }
+Vector3 normal_of(const Plane& plane) { return {plane[0], plane[1], plane[2]}; }
 
-double side(const CutPlane& plane, const Vector3& point) {
-    const Vector3 normal = {plane.plane[0], plane.plane[1], plane.plane[2]};
-    return (dot(normal, point) + plane.plane[3]) / length(normal);
+double side(const Plane& plane, const Vector3& point) {
+    return (dot(normal_of(plane), point) + plane[3]) / length(normal_of(plane));
 }
 
 /** The point of the plane nearest to the middle of the volume. */
-Vector3 anchor_of(const CutPlane& plane, const VolumeFacts& volume) {
-    const auto& b = volume.bounds;
-    const Vector3 middle = {0.5 * (b[0] + b[3]), 0.5 * (b[1] + b[4]), 0.5 * (b[2] + b[5])};
-    return minus(middle, scaled(normal_of(plane), side(plane, middle)));
-}
-
-CutPlane plane_through(const Vector3& point, const Vector3& normal) {
-    return {{normal[0], normal[1], normal[2], -dot(normal, point)}};
+Vector3 anchor_of(const Plane& plane, const VolumeFacts& volume) {
+    const Vector3 middle = middle_of(volume.bounds);
+    return minus(middle, scaled(unit(normal_of(plane)), side(plane, middle)));
 }
 
 /** A unit vector across another one. */
@@ -33,143 +31,107 @@ Vector3 across(const Vector3& a) {
     return unit(cross(a, other));
 }
 
-constexpr const char* move_text = "Drag: move it";
-constexpr const char* move_end_text = "Drag: move this end";
-constexpr const char* grow_text = "Drag: change the radius";
+std::vector<Handle> handles_of_plane(const Plane& plane, const VolumeFacts& volume) {
+    const Vector3 anchor = anchor_of(plane, volume);
+    const Vector3 normal = unit(normal_of(plane));
+    const Vector3 tip = plus(anchor, scaled(normal, arrow_length * volume.diagonal()));
+    return {{Handle::Kind::along, anchor, normal, std::nullopt, "Drag: move the plane along its normal", "move"},
+            {Handle::Kind::free, tip, {}, anchor, "Drag: turn the plane", "turn"}};
+}
 
-/** What can be dragged of a surface; nothing of most kinds. */
-struct HandlesOf {
-    using Handles = std::vector<Handle>;
-    const VolumeFacts& volume;
+Handle mover(const Vector3& place, const char* help = "Drag: move it", const char* name = "move") {
+    return {Handle::Kind::free, place, {}, std::nullopt, help, name};
+}
 
-    Handles operator()(const CutPlane& plane) const {
-        const Vector3 anchor = anchor_of(plane, volume);
-        const Vector3 normal = normal_of(plane);
-        const Vector3 tip = plus(anchor, scaled(normal, arrow_length * volume.diagonal()));
-        return {{Handle::Kind::along, anchor, normal, std::nullopt, "Drag: move the plane along its normal", "move"},
-                {Handle::Kind::free, tip, {}, anchor, "Drag: turn the plane", "turn"}};
-    }
-    Handles operator()(const CutShape& shape) const { return std::visit(*this, shape); }
-    Handles operator()(const Sphere& sphere) const {
-        const Vector3 out = {1, 0, 0};
-        return {
-            {Handle::Kind::free, sphere.center, {}, std::nullopt, move_text, "move"},
-            {Handle::Kind::along, plus(sphere.center, scaled(out, sphere.radius)), out, sphere.center, grow_text, "radius"}};
-    }
-    Handles operator()(const Torus& torus) const {
-        const Vector3 out = across(torus.axis);
-        return {
-            {Handle::Kind::free, torus.center, {}, std::nullopt, move_text, "move"},
-            {Handle::Kind::along, plus(torus.center, scaled(out, torus.major_radius)), out, torus.center, grow_text, "radius"}};
-    }
-    Handles operator()(const Cylinder& cylinder) const {
-        const Vector3 out = across(minus(cylinder.to, cylinder.from));
-        Handles handles = of_ends(cylinder.from, cylinder.to);
-        handles.push_back(
-            {Handle::Kind::along, plus(cylinder.from, scaled(out, cylinder.radius)), out, cylinder.from, grow_text, "radius"});
-        return handles;
-    }
-    Handles operator()(const Cone& cone) const { return of_ends(cone.from, cone.to); }
-    Handles operator()(const Quadric&) const { return {}; }
-    Handles operator()(const ImplicitSurface&) const { return {}; }
-    Handles operator()(const MeshSurface&) const { return {}; }
-    Handles operator()(const BezierSurface&) const { return {}; }
-    Handles operator()(const TubeSurface&) const { return {}; }
-    Handles operator()(const ArrowSurface&) const { return {}; }
-    Handles operator()(const FaceGeometry&) const { return {}; }
-    Handles operator()(const WireFrame&) const { return {}; }
-    Handles operator()(const Isosurfaces&) const { return {}; }
+Handle radius_handle(const Vector3& middle, const Vector3& out, double radius) {
+    return {Handle::Kind::along, plus(middle, scaled(out, radius)), out, middle, "Drag: change the radius", "radius"};
+}
 
-    static Handles of_ends(const Vector3& from, const Vector3& to) {
-        return {{Handle::Kind::free, from, {}, std::nullopt, move_end_text, "from"},
-                {Handle::Kind::free, to, {}, from, move_end_text, "to"}};
-    }
-};
-
-std::vector<Handle> handles_of_seeds(const std::vector<Vector3>& seeds) {
-    std::vector<Handle> handles;
-    for (const Vector3& seed : seeds) {
-        handles.push_back({Handle::Kind::free, seed, {}, std::nullopt, "Drag: move the seed of a line", "seed"});
+/** Cylinders and cones. */
+std::vector<Handle> handles_of_ends(const Json& surface) {
+    constexpr const char* help = "Drag: move this end";
+    const Vector3 from = surface["from"], to = surface["to"];
+    std::vector<Handle> handles = {mover(from, help, "from"), {Handle::Kind::free, to, {}, from, help, "to"}};
+    if (surface.contains("radius")) {
+        handles.push_back(radius_handle(from, across(minus(to, from)), surface["radius"]));
     }
     return handles;
 }
 
-/** Drags one of these handles to a position. */
-struct MovedHandle {
-    const VolumeFacts& volume;
-    std::size_t handle;
-    const Vector3& position;
+/** None of most types. */
+std::vector<Handle> handles_of_surface(const Json& surface, const VolumeFacts& volume) {
+    const std::string type = surface["type"];
+    if (type == "plane") {
+        return handles_of_plane(surface["plane"], volume);
+    }
+    if (type == "sphere") {
+        return {mover(surface["center"]), radius_handle(surface["center"], {1, 0, 0}, surface["radius"])};
+    }
+    if (type == "torus") {
+        return {mover(surface["center"]), radius_handle(surface["center"], across(surface["axis"]), surface["major_radius"])};
+    }
+    if (type == "cylinder" || type == "cone") {
+        return handles_of_ends(surface);
+    }
+    std::vector<Handle> seeds;
+    for (const Json& seed : part_of(surface, "seeds")) {
+        seeds.push_back(mover(seed, "Drag: move the seed of a line", "seed"));
+    }
+    return seeds;
+}
 
-    void operator()(CutPlane& plane) const {
-        if (handle == 0) {
-            plane.plane[3] -= side(plane, position) * length({plane.plane[0], plane.plane[1], plane.plane[2]});
-            return;
-        }
+void move_plane(Json& surface, const VolumeFacts& volume, std::size_t handle, const Vector3& position) {
+    Plane plane = surface["plane"];
+    if (handle == 0) {
+        plane[3] -= side(plane, position) * length(normal_of(plane));
+    } else {
         const Vector3 anchor = anchor_of(plane, volume);
         const Vector3 normal = minus(position, anchor);
         if (length(normal) > 1e-9 * volume.diagonal()) {
-            plane = plane_through(anchor, unit(normal));
+            const Vector3 along = unit(normal);
+            plane = {along[0], along[1], along[2], -dot(along, anchor)};
         }
     }
-    void operator()(CutShape& shape) const { std::visit(*this, shape); }
-    void operator()(Sphere& sphere) const { move_round(sphere.center, sphere.radius); }
-    void operator()(Torus& torus) const { move_round(torus.center, torus.major_radius); }
-    void operator()(Cylinder& cylinder) const {
-        if (handle == 2) {
-            cylinder.radius = radius_from(cylinder.from);
-        } else {
-            move_end(cylinder.from, cylinder.to);
-        }
-    }
-    void operator()(Cone& cone) const { move_end(cone.from, cone.to); }
-    /** Kinds without handles. */
-    void operator()(const Quadric&) const {}
-    void operator()(const ImplicitSurface&) const {}
-    void operator()(const MeshSurface&) const {}
-    void operator()(const BezierSurface&) const {}
-    void operator()(const TubeSurface&) const {}
-    void operator()(const ArrowSurface&) const {}
-    void operator()(const FaceGeometry&) const {}
-    void operator()(const WireFrame&) const {}
-    void operator()(const Isosurfaces&) const {}
+    surface["plane"] = plane;
+}
 
-    double radius_from(const Vector3& centre) const {
-        constexpr double least = 1e-9;
-        return std::max(length(minus(position, centre)), least);
-    }
-    void move_round(Vector3& centre, double& radius) const {
+double radius_from(const Vector3& centre, const Vector3& position) {
+    constexpr double least = 1e-9;
+    return std::max(length(minus(position, centre)), least);
+}
+
+void move_surface(Json& surface, const VolumeFacts& volume, std::size_t handle, const Vector3& position) {
+    const std::string type = surface["type"];
+    if (type == "plane") {
+        move_plane(surface, volume, handle, position);
+    } else if (surface.contains("seeds")) {
+        surface["seeds"][handle] = position;
+    } else if (surface.contains("center")) {
         if (handle == 0) {
-            centre = position;
+            surface["center"] = position;
         } else {
-            radius = radius_from(centre);
+            surface[type == "torus" ? "major_radius" : "radius"] = radius_from(surface["center"], position);
         }
+    } else if (handle == 2) {
+        surface["radius"] = radius_from(surface["from"], position);
+    } else if (surface[handle == 0 ? "to" : "from"] != Json(position)) {
+        // The two ends stay apart.
+        surface[handle == 0 ? "from" : "to"] = position;
     }
-    /** The two stay apart. */
-    void move_end(Vector3& from, Vector3& to) const {
-        if (position != (handle == 0 ? to : from)) {
-            (handle == 0 ? from : to) = position;
-        }
-    }
-};
+}
 
 } // namespace
 
 std::vector<Handle> handles_of(const Scene& scene, const ItemId& item, const VolumeFacts& volume) {
-    if (item.kind == ItemKind::light) {
-        const Light& light = scene.lighting->lights[item.index];
-        if (light.type == Light::Type::point) {
-            return {{Handle::Kind::free, light.vector, {}, std::nullopt, "Drag: move the light", "move"}};
-        }
+    if (item.kind == ItemKind::volume || !is_shown(scene, item)) {
         return {};
     }
-    if (item.kind != ItemKind::surface || !scene.surfaces[item.index].is_shown) {
-        return {};
+    const Json& part = part_of(scene, item);
+    if (item.kind == ItemKind::surface) {
+        return handles_of_surface(part, volume);
     }
-    const SceneSurface& surface = scene.surfaces[item.index];
-    if (surface.streamlines) {
-        return handles_of_seeds(surface.streamlines->seeds);
-    }
-    return std::visit(HandlesOf{volume}, surface.geometry);
+    return part["type"] == "point" ? std::vector<Handle>{mover(part["position"], "Drag: move the light")}
+                                   : std::vector<Handle>{};
 }
 
 Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize& size, const PicturePoint& from,
@@ -195,16 +157,12 @@ Vector3 dragged_to(const Handle& handle, const Camera& camera, const PictureSize
 Scene with_moved_handle(const Scene& scene, const ItemId& item, const VolumeFacts& volume, std::size_t handle,
                         const Vector3& position) {
     Scene result = scene;
+    Json& part = part_of(result, item);
     if (item.kind == ItemKind::light) {
-        result.lighting->lights[item.index].vector = position;
-        return result;
+        part["position"] = position;
+    } else {
+        move_surface(part, volume, handle, position);
     }
-    SceneSurface& surface = result.surfaces[item.index];
-    if (surface.streamlines) {
-        surface.streamlines->seeds[handle] = position;
-        return result;
-    }
-    std::visit(MovedHandle{volume, handle, position}, surface.geometry);
     return result;
 }
 

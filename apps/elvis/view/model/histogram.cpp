@@ -1,6 +1,6 @@
 #include "histogram.hpp"
 
-#include <core/session/field_samples.hpp>
+#include <core/base/quantile.hpp>
 
 #include <algorithm>
 #include <cmath>

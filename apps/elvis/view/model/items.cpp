@@ -2,9 +2,6 @@
 
 #include <core/base/bounds.hpp>
 #include <core/base/vector3.hpp>
-#include <core/scene/color/color_map.hpp>
-#include <core/scene/resolve.hpp>
-#include <core/session/surface_names.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -27,43 +24,41 @@ std::string number(double value) {
     return text;
 }
 
-/** Which of its kind it is. */
-struct Detail {
-    std::string operator()(const CutPlane& plane) const {
-        const auto& [a, b, c, d] = plane.plane;
-        const char* names[] = {"x", "y", "z"};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (plane.plane[axis] != 0 && plane.plane[(axis + 1) % 3] == 0 && plane.plane[(axis + 2) % 3] == 0) {
-                return std::string(names[axis]) + " = " + number(-d / plane.plane[axis] + 0.0);
-            }
+/** As people call surfaces, by their type in scenes; others are called as there. */
+std::string type_name(const std::string& type) {
+    return type == "plane" ? "cut plane" : type == "implicit" ? "implicit surface" : type == "bezier" ? "Bezier patches" : type;
+}
+
+std::string plane_text(const std::array<double, 4>& plane) {
+    const char* names[] = {"x", "y", "z"};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (plane[axis] != 0 && plane[(axis + 1) % 3] == 0 && plane[(axis + 2) % 3] == 0) {
+            return std::string(names[axis]) + " = " + number(-plane[3] / plane[axis] + 0.0);
         }
-        return std::string("(") + number(a) + ", " + number(b) + ", " + number(c) + ")";
     }
-    std::string operator()(const BoundaryFaces& boundary) const { return joined(boundary.groups); }
-    std::string operator()(const Isosurfaces& isosurfaces) const {
+    return std::string("(") + number(plane[0]) + ", " + number(plane[1]) + ", " + number(plane[2]) + ")";
+}
+
+/** Which of its kind it is. */
+std::string detail(const Json& surface) {
+    const std::string type = surface["type"];
+    if (const auto name = said<std::string>(surface, "name")) {
+        return *name;
+    }
+    if (type == "plane") {
+        return plane_text(surface["plane"]);
+    }
+    if (type == "isosurface") {
         std::vector<std::string> values;
-        for (const double value : isosurfaces.values) {
+        for (const Json& value : surface["values"]) {
             values.push_back(number(value));
         }
         return joined(values);
     }
-    std::string operator()(const FlatElements&) const { return {}; }
-    std::string operator()(const ElementFaces&) const { return {}; }
-    std::string operator()(const WireFrame&) const { return {}; }
-    std::string operator()(const CutShape&) const { return {}; }
-};
-
-std::string detail(const SceneSurface& surface) {
-    if (surface.streamlines && surface.name.empty()) {
-        return surface.streamlines->flow;
+    if (type == "boundary") {
+        return joined(surface.value("groups", std::vector<std::string>()));
     }
-    return surface.name.empty() ? std::visit(Detail(), surface.geometry) : surface.name;
-}
-
-template <class T> T copied_after(std::vector<T>& list, std::size_t index) {
-    const T copy = list[index];
-    list.insert(list.begin() + static_cast<std::ptrdiff_t>(index) + 1, copy);
-    return copy;
+    return surface.value("flow", std::string());
 }
 
 double least_extent(const VolumeFacts& volume) {
@@ -71,77 +66,82 @@ double least_extent(const VolumeFacts& volume) {
     return std::max(std::min({b[3] - b[0], b[4] - b[1], b[5] - b[2]}), 1e-6 * volume.diagonal());
 }
 
-SurfaceGeometry new_geometry(const VolumeFacts& volume, NewItem item, double value) {
+/** Through the middle of the volume, across its shortest extent. */
+std::array<double, 4> central_plane(const VolumeFacts& volume) {
+    const auto& b = volume.bounds;
+    std::size_t shortest = 0;
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+        shortest = b[axis + 3] - b[axis] < b[shortest + 3] - b[shortest] ? axis : shortest;
+    }
+    std::array<double, 4> plane{};
+    plane[shortest] = 1;
+    plane[3] = -middle_of(b)[shortest];
+    return plane;
+}
+
+Json new_surface(const VolumeFacts& volume, NewItem item, double value) {
     const Vector3 middle = middle_of(volume.bounds);
     const double extent = least_extent(volume);
     const Vector3 along = {0, 0, 0.35 * extent};
+    const Vector3 from = minus(middle, along), to = plus(middle, along);
     switch (item) {
     case NewItem::cut_plane:
-        return central_plane(volume.bounds);
+        return {{"type", "plane"}, {"plane", central_plane(volume)}};
     case NewItem::sphere:
-        return CutShape(Sphere{middle, 0.35 * extent});
+        return {{"type", "sphere"}, {"center", middle}, {"radius", 0.35 * extent}};
     case NewItem::cylinder:
-        return CutShape(Cylinder{minus(middle, along), plus(middle, along), 0.25 * extent, true});
+        return {{"type", "cylinder"}, {"from", from}, {"to", to}, {"radius", 0.25 * extent}};
     case NewItem::cone:
-        return CutShape(Cone{minus(middle, along), plus(middle, along), 0.3 * extent, 0, true});
+        return {{"type", "cone"}, {"from", from}, {"to", to}, {"from_radius", 0.3 * extent}, {"to_radius", 0}};
     case NewItem::torus:
-        return CutShape(Torus{middle, {0, 0, 1}, 0.3 * extent, 0.1 * extent});
+        return {{"type", "torus"},
+                {"center", middle},
+                {"axis", {0, 0, 1}},
+                {"major_radius", 0.3 * extent},
+                {"minor_radius", 0.1 * extent}};
     case NewItem::quadric: {
         // An ellipsoid, so that every coefficient has something to act on.
         const double r = 0.35 * extent;
         const double constant = dot(middle, middle) - r * r;
-        return CutShape(Quadric{{1, 1, 1, 0, 0, 0, -2 * middle[0], -2 * middle[1], -2 * middle[2], constant}});
+        return {{"type", "quadric"},
+                {"coefficients", {1, 1, 1, 0, 0, 0, -2 * middle[0], -2 * middle[1], -2 * middle[2], constant}}};
     }
     case NewItem::implicit: {
         char text[120];
         std::snprintf(text, sizeof text, "z - (%.6g) - %.6g * sin(x / %.6g) * cos(y / %.6g)", middle[2], 0.1 * extent,
                       0.15 * extent, 0.15 * extent);
-        return CutShape(ImplicitSurface{text});
+        return {{"type", "implicit"}, {"expression", text}};
     }
     case NewItem::elements:
-        return ElementFaces{};
+        return {{"type", "elements"}};
     case NewItem::wireframe:
-        return WireFrame{};
-    case NewItem::isosurface: {
-        Isosurfaces isosurfaces;
-        isosurfaces.values = {value};
-        return isosurfaces;
-    }
+        return {{"type", "wireframe"}};
+    case NewItem::isosurface:
+        return {{"type", "isosurface"}, {"values", {value}}};
     case NewItem::streamlines:
-        return CutShape(TubeSurface{});
+        return {{"type", "streamlines"}, {"flow", flows_of(volume).front()}};
     default:
-        return BoundaryFaces{};
+        return {{"type", "boundary"}};
     }
 }
 
-/** As the reader makes them. */
-SceneSurface new_surface(const VolumeFacts& volume, NewItem item, double value) {
-    SceneSurface surface{new_geometry(volume, item, value)};
-    if (item == NewItem::wireframe) {
-        surface.color_map = uniform_color_map({0, 0, 0});
-        surface.is_lit = false;
-    }
-    if (item == NewItem::streamlines) {
-        surface.streamlines = SceneStreamlines{flows_of(volume).front()};
-    }
-    return surface;
+/** The list that holds items of that kind. */
+Json& list_of(Scene& scene, ItemKind kind) {
+    return kind == ItemKind::surface ? scene["surfaces"] : scene["lighting"]["lights"];
 }
 
 } // namespace
 
 std::vector<ItemId> items_of(const Scene& scene) {
     std::vector<ItemId> items;
-    for (std::size_t i = 0; i < scene.surfaces.size(); ++i) {
+    for (std::size_t i = 0; i < part_of(scene, "surfaces").size(); ++i) {
         items.push_back({ItemKind::surface, i});
     }
-    if (scene.volume_rendering) {
+    if (scene.contains("volume_rendering")) {
         items.push_back({ItemKind::volume, 0});
     }
-    for (std::size_t i = 0; scene.lighting && i < scene.lighting->lights.size(); ++i) {
+    for (std::size_t i = 0; i < part_of(part_of(scene, "lighting"), "lights").size(); ++i) {
         items.push_back({ItemKind::light, i});
-    }
-    for (std::size_t i = 0; scene.lighting && i < scene.hidden_lights.size(); ++i) {
-        items.push_back({ItemKind::hidden_light, i});
     }
     return items;
 }
@@ -151,99 +151,58 @@ bool exists(const Scene& scene, const ItemId& item) {
     return std::find(items.begin(), items.end(), item) != items.end();
 }
 
+std::string pointer_of(const ItemId& item) {
+    return item.kind == ItemKind::volume
+               ? "/volume_rendering"
+               : (item.kind == ItemKind::surface ? "/surfaces/" : "/lighting/lights/") + std::to_string(item.index);
+}
+
+const Json& part_of(const Scene& scene, const ItemId& item) { return scene.at(Json::json_pointer(pointer_of(item))); }
+Json& part_of(Scene& scene, const ItemId& item) { return scene.at(Json::json_pointer(pointer_of(item))); }
+
 std::string item_kind_name(const Scene& scene, const ItemId& item) {
-    switch (item.kind) {
-    case ItemKind::surface: {
-        const SceneSurface& surface = scene.surfaces[item.index];
-        return surface.streamlines && surface.streamlines->times ? "pathlines" : elvis::kind_name(surface.geometry);
-    }
-    case ItemKind::volume:
-        return "volume";
-    default: {
-        const Light& light =
-            item.kind == ItemKind::light ? scene.lighting->lights[item.index] : scene.hidden_lights[item.index];
-        return light.type == Light::Type::point ? "point light" : "directional light";
-    }
-    }
+    const std::string type = part_of(scene, item).value("type", "");
+    return item.kind == ItemKind::surface ? type_name(type) : item.kind == ItemKind::light ? type + " light" : "volume";
 }
 
 std::string item_label(const Scene& scene, const ItemId& item) {
     std::string text = item_kind_name(scene, item);
     text.front() = static_cast<char>(text.front() >= 'a' && text.front() <= 'z' ? text.front() - 'a' + 'A' : text.front());
-    if (item.kind == ItemKind::surface) {
-        const std::string more = detail(scene.surfaces[item.index]);
-        text += more.empty() ? std::string() : std::string(" ") + more;
-    } else if (item.kind == ItemKind::volume) {
-        const std::optional<std::string>& field = scene.volume_rendering->field;
-        text += field ? std::string(" ") + *field : std::string();
-    }
-    return text;
+    const Json& part = part_of(scene, item);
+    const std::string more = item.kind == ItemKind::surface  ? detail(part)
+                             : item.kind == ItemKind::volume ? part.value("field", std::string())
+                                                             : std::string();
+    return more.empty() ? text : text + " " + more;
 }
 
-bool is_shown(const Scene& scene, const ItemId& item) {
-    switch (item.kind) {
-    case ItemKind::surface:
-        return scene.surfaces[item.index].is_shown;
-    case ItemKind::volume:
-        return scene.volume_rendering->is_shown;
-    default:
-        return item.kind == ItemKind::light;
-    }
-}
+bool is_shown(const Scene& scene, const ItemId& item) { return part_of(scene, item).value("visible", true); }
 
-ItemId set_shown(Scene& scene, const ItemId& item, bool shown) {
-    if (item.kind == ItemKind::surface) {
-        scene.surfaces[item.index].is_shown = shown;
-        return item;
-    }
-    if (item.kind == ItemKind::volume) {
-        scene.volume_rendering->is_shown = shown;
-        return item;
-    }
-    if (is_shown(scene, item) == shown) {
-        return item;
-    }
-    std::vector<Light>& from = shown ? scene.hidden_lights : scene.lighting->lights;
-    std::vector<Light>& to = shown ? scene.lighting->lights : scene.hidden_lights;
-    to.push_back(from[item.index]);
-    from.erase(from.begin() + static_cast<std::ptrdiff_t>(item.index));
-    return {shown ? ItemKind::light : ItemKind::hidden_light, to.size() - 1};
+void set_shown(Scene& scene, const ItemId& item, bool shown) {
+    say(part_of(scene, item), "visible", shown ? std::nullopt : std::optional(false));
 }
 
 void remove(Scene& scene, const ItemId& item) {
-    const auto at = static_cast<std::ptrdiff_t>(item.index);
-    switch (item.kind) {
-    case ItemKind::surface:
-        scene.surfaces.erase(scene.surfaces.begin() + at);
-        break;
-    case ItemKind::volume:
-        scene.volume_rendering.reset();
-        break;
-    case ItemKind::light:
-        scene.lighting->lights.erase(scene.lighting->lights.begin() + at);
-        break;
-    case ItemKind::hidden_light:
-        scene.hidden_lights.erase(scene.hidden_lights.begin() + at);
-        break;
+    if (item.kind == ItemKind::volume) {
+        scene.erase("volume_rendering");
+        return;
+    }
+    Json& list = list_of(scene, item.kind);
+    list.erase(item.index);
+    if (list.empty()) {
+        (item.kind == ItemKind::surface ? scene : scene["lighting"])
+            .erase(item.kind == ItemKind::surface ? "surfaces" : "lights");
     }
 }
 
 ItemId duplicate(Scene& scene, const ItemId& item) {
-    switch (item.kind) {
-    case ItemKind::surface:
-        copied_after(scene.surfaces, item.index);
-        scene.surfaces[item.index + 1].name.clear(); // Names are of one surface each.
-        return {item.kind, item.index + 1};
-    case ItemKind::volume:
+    if (item.kind == ItemKind::volume) {
         return item;
-    case ItemKind::light:
-        copied_after(scene.lighting->lights, item.index);
-        return {item.kind, item.index + 1};
-    case ItemKind::hidden_light:
-        copied_after(scene.hidden_lights, item.index);
-        return {item.kind, item.index + 1};
     }
-    return item;
+    Json copy = part_of(scene, item);
+    copy.erase("name"); // Names are of one surface each.
+    Json& list = list_of(scene, item.kind);
+    list.insert(list.begin() + static_cast<std::ptrdiff_t>(item.index) + 1, std::move(copy));
+    return {item.kind, item.index + 1};
 }
 
 const std::vector<NewItemInfo>& new_items() {
@@ -268,7 +227,7 @@ const std::vector<NewItemInfo>& new_items() {
 
 std::vector<std::string> flows_of(const VolumeFacts& volume) {
     std::vector<std::string> flows, made;
-    for (const FieldInfo& field : volume.fields) {
+    for (const FieldFacts& field : volume.fields) {
         if (field.n_components == 3 || (field.n_components == 2 && volume.dimension == 2)) {
             flows.push_back(field.name);
         }
@@ -284,7 +243,7 @@ std::vector<std::string> flows_of(const VolumeFacts& volume) {
 
 std::vector<std::string> displacements_of(const VolumeFacts& volume) {
     std::vector<std::string> names;
-    for (const FieldInfo& field : volume.fields) {
+    for (const FieldFacts& field : volume.fields) {
         if (field.n_components == 3 || (volume.dimension == 2 && field.n_components <= 2)) {
             names.push_back(field.name);
         }
@@ -305,31 +264,28 @@ bool can_add(const Scene& scene, const VolumeFacts& volume, NewItem item) {
     if (item == NewItem::streamlines) {
         return !flows_of(volume).empty();
     }
-    return item != NewItem::volume || !scene.volume_rendering;
+    return item != NewItem::volume || !scene.contains("volume_rendering");
 }
 
 ItemId add(Scene& scene, const VolumeFacts& volume, NewItem item, double middle) {
     if (item == NewItem::volume) {
-        scene.volume_rendering = SceneVolumeRendering{};
+        scene["volume_rendering"] = Json::object();
         return {ItemKind::volume, 0};
     }
     if (item == NewItem::directional_light || item == NewItem::point_light) {
-        if (!scene.lighting) {
-            scene.lighting = Lighting{};
-        }
-        Light light;
+        Json light{{"type", "directional"}, {"direction", {-1, -1, -1}}, {"color", {0.5, 0.5, 0.5}}};
         if (item == NewItem::point_light) {
-            light.type = Light::Type::point;
-            light.vector = plus(middle_of(volume.bounds), scaled(unit({1, 1, 1}), volume.diagonal()));
-        } else {
-            light.vector = {-1, -1, -1};
+            light.erase("direction");
+            light["type"] = "point";
+            light["position"] = plus(middle_of(volume.bounds), scaled(unit({1, 1, 1}), volume.diagonal()));
         }
-        light.color = {0.5, 0.5, 0.5};
-        scene.lighting->lights.push_back(light);
-        return {ItemKind::light, scene.lighting->lights.size() - 1};
+        Json& lights = list_of(scene, ItemKind::light);
+        lights.push_back(std::move(light));
+        return {ItemKind::light, lights.size() - 1};
     }
-    scene.surfaces.push_back(new_surface(volume, item, middle));
-    return {ItemKind::surface, scene.surfaces.size() - 1};
+    Json& surfaces = list_of(scene, ItemKind::surface);
+    surfaces.push_back(new_surface(volume, item, middle));
+    return {ItemKind::surface, surfaces.size() - 1};
 }
 
 } // namespace elvis::view

@@ -4,9 +4,8 @@
  */
 #pragma once
 
+#include "scene.hpp"
 #include "volume_facts.hpp"
-
-#include <core/scene/scene.hpp>
 
 #include <compare>
 #include <cstddef>
@@ -15,7 +14,7 @@
 
 namespace elvis::view {
 
-enum class ItemKind { surface, volume, light, hidden_light };
+enum class ItemKind { surface, volume, light };
 
 struct ItemId {
     ItemKind kind = ItemKind::surface;
@@ -27,6 +26,11 @@ struct ItemId {
 
 std::vector<ItemId> items_of(const Scene& scene);
 bool exists(const Scene& scene, const ItemId& item);
+/** Where the scene has it, as a JSON Pointer. */
+std::string pointer_of(const ItemId& item);
+/** What the scene says of an item that exists. */
+const Json& part_of(const Scene& scene, const ItemId& item);
+Json& part_of(Scene& scene, const ItemId& item);
 
 /** "Cut plane slice", "Isosurface 0.5, 0.7", "Boundary inlet". */
 std::string item_label(const Scene& scene, const ItemId& item);
@@ -34,8 +38,7 @@ std::string item_label(const Scene& scene, const ItemId& item);
 std::string item_kind_name(const Scene& scene, const ItemId& item);
 
 bool is_shown(const Scene& scene, const ItemId& item);
-/** Returns the item, which for lights is another one then. */
-ItemId set_shown(Scene& scene, const ItemId& item, bool shown);
+void set_shown(Scene& scene, const ItemId& item, bool shown);
 void remove(Scene& scene, const ItemId& item);
 /** Puts a copy after it, and returns the copy; of the volume, of which there is one, itself. */
 ItemId duplicate(Scene& scene, const ItemId& item);

@@ -10,8 +10,6 @@
 #include <apps/elvis/answers/line_rows.hpp>
 #include <apps/elvis/answers/sample_curve.hpp>
 
-#include <core/render/frame.hpp>
-
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -1,24 +1,8 @@
 #include "model.hpp"
 
-#include <core/scene/resolve.hpp>
-
 #include <utility>
 
 namespace elvis::view {
-
-namespace {
-
-std::vector<CutPlane> planes_of(const Scene& scene) {
-    std::vector<CutPlane> planes;
-    for (const SceneSurface& surface : scene.surfaces) {
-        if (const CutPlane* const plane = traits_of(surface.geometry).plane; plane != nullptr && surface.is_shown) {
-            planes.push_back(*plane);
-        }
-    }
-    return planes.size() == scene.surfaces.size() ? planes : std::vector<CutPlane>{};
-}
-
-} // namespace
 
 void Model::open(Scene scene, VolumeFacts facts, std::string file) {
     m_scene = std::move(scene);
@@ -28,8 +12,7 @@ void Model::open(Scene scene, VolumeFacts facts, std::string file) {
     m_redo.clear();
     m_gesture.clear();
     m_selection = items_of(m_scene).empty() ? std::nullopt : std::optional(items_of(m_scene).front());
-    const std::vector<CutPlane> planes = m_volume->dimension == 2 ? plane_of_flat(m_volume->bounds) : planes_of(m_scene);
-    set_camera(resolve_camera(m_scene, m_volume->extent(), planes));
+    ++m_revision;
     m_is_changed = false;
 }
 
@@ -57,30 +40,22 @@ void Model::edit(const std::string& what, Scene&& scene) {
 }
 
 void Model::set_camera(const Camera& camera) {
-    elvis::set_camera(m_scene.camera, camera);
+    say_camera(m_scene["camera"], camera);
     ++m_revision;
 }
 
 void Model::set_size(const std::array<std::uint32_t, 2>& size) {
-    if (m_scene.size != size) {
-        m_scene.size = size;
+    if (size_of(m_scene) != size) {
+        m_scene["image"]["size"] = size;
         ++m_revision;
     }
 }
 
-Camera camera_of(const SceneCamera& own) {
-    Camera camera;
-    camera.orthographic = own.orthographic.value_or(false);
-    camera.eye = own.eye.value_or(Vector3{0, 0, 1});
-    camera.look_at = own.look_at.value_or(Vector3{});
-    camera.up = own.up.value_or(Vector3{0, 1, 0});
-    camera.field_of_view = own.field_of_view.value_or(camera.field_of_view);
-    camera.height = own.height.value_or(camera.height);
-    camera.image_shift = own.image_shift;
-    return camera;
+Scene Model::as_seen(Scene scene) const {
+    scene["camera"] = m_scene.at("camera");
+    scene["image"]["size"] = m_scene.at("image").at("size");
+    return scene;
 }
-
-Camera Model::camera() const { return camera_of(m_scene.camera); }
 
 std::optional<std::string> Model::undo_name() const {
     return m_undo.empty() ? std::nullopt : std::optional(m_undo.back().what);
@@ -96,9 +71,8 @@ void Model::exchange(std::vector<Step>& from, std::vector<Step>& to) {
     }
     Step step = std::move(from.back());
     from.pop_back();
-    step.scene.camera = m_scene.camera;
-    step.scene.size = m_scene.size;
-    to.push_back({step.what, std::exchange(m_scene, std::move(step.scene)), std::exchange(m_selection, step.selection)});
+    to.push_back(
+        {step.what, std::exchange(m_scene, as_seen(std::move(step.scene))), std::exchange(m_selection, step.selection)});
     m_gesture.clear();
     changed();
 }

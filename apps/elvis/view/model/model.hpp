@@ -7,8 +7,6 @@
 #include "items.hpp"
 #include "volume_facts.hpp"
 
-#include <core/scene/scene.hpp>
-
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -32,7 +30,7 @@ public:
     /** Grows with everything that changes the picture. */
     std::uint64_t revision() const { return m_revision; }
 
-    /** A scene and its volume; nothing of what was before stays. */
+    /** A scene whose camera is complete, and its volume; nothing of what was before stays. */
     void open(Scene scene, VolumeFacts facts, std::string file);
     void saved(std::string file);
 
@@ -45,8 +43,9 @@ public:
 
     void set_camera(const Camera& camera);
     void set_size(const std::array<std::uint32_t, 2>& size);
-    /** The scene's camera, which is complete once a volume is open. */
-    Camera camera() const;
+    /** The scene with camera and size of this one. */
+    Scene as_seen(Scene scene) const;
+    Camera camera() const { return camera_of(part_of(m_scene, "camera")); }
 
     /** The name of the step that would be undone, or nothing. */
     std::optional<std::string> undo_name() const;
@@ -69,7 +68,7 @@ private:
     void exchange(std::vector<Step>& from, std::vector<Step>& to);
     void changed();
 
-    Scene m_scene;
+    Scene m_scene = scene_of_files({});
     std::optional<VolumeFacts> m_volume;
     std::string m_file;
     bool m_is_changed = false;
@@ -78,9 +77,6 @@ private:
     std::vector<Step> m_undo, m_redo;
     std::optional<ItemId> m_selection;
 };
-
-/** Complete, with the usual values for what is left open. */
-Camera camera_of(const SceneCamera& camera);
 
 /** Steps of undo that are kept. */
 inline constexpr std::size_t most_steps = 200;

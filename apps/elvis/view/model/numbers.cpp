@@ -17,31 +17,30 @@ std::string digits(double number, int n_digits) {
 
 /** One row a plane or boundary, and one an isovalue; none for what is not integrated. */
 std::vector<NumbersQuestion> rows_of(const Scene& scene, std::size_t index, const std::string& scenes_field) {
-    const SceneSurface& surface = scene.surfaces[index];
-    const std::string own = surface.field.value_or(scenes_field);
+    const Json& surface = scene["surfaces"][index];
+    const std::string type = surface["type"], own = surface.value("field", scenes_field);
     NumbersQuestion question;
     question.of = item_label(scene, {ItemKind::surface, index});
     question.field = own;
-    question.is_clipped = !surface.clip.empty();
-    if (const auto* boundary = std::get_if<BoundaryFaces>(&surface.geometry)) {
+    question.is_clipped = surface.contains("clip");
+    if (type == "boundary") {
         question.domain = ELVIS_DOMAIN_BOUNDARY;
-        question.groups = boundary->groups;
+        question.groups = surface.value("groups", question.groups);
         return {question};
     }
-    if (const auto* plane = std::get_if<CutPlane>(&surface.geometry)) {
+    if (type == "plane") {
         question.domain = ELVIS_DOMAIN_PLANE;
-        question.plane = plane->plane;
+        question.plane = surface["plane"];
         return {question};
     }
-    const auto* isosurfaces = std::get_if<Isosurfaces>(&surface.geometry);
-    if (isosurfaces == nullptr) {
+    if (type != "isosurface") {
         return {};
     }
     std::vector<NumbersQuestion> rows;
     question.domain = ELVIS_DOMAIN_ISOSURFACE;
     question.level_field = own;
-    question.field = surface.color_field.value_or(own);
-    for (const double value : isosurfaces->values) {
+    question.field = surface.value("color_field", own);
+    for (const double value : surface["values"]) {
         question.isovalue = value;
         question.of = std::string("Isosurface ").append(own).append(" = ").append(digits(value, 6));
         rows.push_back(question);
@@ -66,13 +65,14 @@ void append_extremum(std::string& text, double value, const double position[3]) 
 } // namespace
 
 std::vector<NumbersQuestion> questions_of(const Scene& scene, const VolumeFacts& volume) {
-    if (volume.fields.empty() && !scene.field) {
+    if (volume.fields.empty() && !scene.contains("field")) {
         return {};
     }
-    const std::string scenes_field = scene.field ? *scene.field : volume.fields.front().name;
+    const std::string scenes_field =
+        said<std::string>(scene, "field").value_or(volume.fields.empty() ? "" : volume.fields[0].name);
     std::vector<NumbersQuestion> of_surfaces;
-    for (std::size_t index = 0; index < scene.surfaces.size(); ++index) {
-        if (scene.surfaces[index].is_shown && volume.dimension == 3) {
+    for (std::size_t index = 0; index < part_of(scene, "surfaces").size(); ++index) {
+        if (is_shown(scene, {ItemKind::surface, index}) && volume.dimension == 3) {
             const std::vector<NumbersQuestion> rows = rows_of(scene, index, scenes_field);
             of_surfaces.insert(of_surfaces.end(), rows.begin(), rows.end());
         }
@@ -90,13 +90,14 @@ std::vector<NumbersQuestion> questions_of(const Scene& scene, const VolumeFacts&
     for (const NumbersQuestion& question : of_surfaces) {
         add_volume(question.field);
     }
-    if (scene.volume_rendering && scene.volume_rendering->is_shown && scene.volume_rendering->field) {
-        add_volume(*scene.volume_rendering->field);
+    const Json& rendering = part_of(scene, "volume_rendering");
+    if (rendering.value("visible", true) && rendering.contains("field")) {
+        add_volume(rendering["field"]);
     }
     questions.insert(questions.end(), of_surfaces.begin(), of_surfaces.end());
     for (NumbersQuestion& question : questions) {
-        question.time_step = scene.time_step;
-        question.warp = scene.warp;
+        question.time_step = time_step_of(scene);
+        question.warp = part_of(scene, "warp");
     }
     return questions;
 }

@@ -4,9 +4,8 @@
  */
 #pragma once
 
+#include "scene.hpp"
 #include "volume_facts.hpp"
-
-#include <core/scene/scene.hpp>
 
 #include <elvis/elvis.hpp>
 
@@ -30,7 +29,8 @@ struct NumbersQuestion {
     std::string level_field{};
     double isovalue = 0;
     std::uint32_t time_step = 0;
-    std::optional<SceneWarp> warp{};
+    /** Empty without. */
+    Json warp{};
     /** Parts of the surface are cut away in the picture; the numbers are of all of it. */
     bool is_clipped = false;
 

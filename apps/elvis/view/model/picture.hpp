@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/render/frame.hpp>
+#include "camera.hpp"
 
 #include <elvis/elvis.hpp>
 #include <nlohmann/json.hpp>

@@ -4,8 +4,6 @@
 #include <apps/elvis/render/output_endings.hpp>
 
 #include <core/base/error.hpp>
-#include <core/scene/surface_distance.hpp>
-#include <core/scene/write/write_scene.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -13,15 +11,6 @@
 namespace elvis::view {
 
 namespace {
-
-/** A file that is not there: paths of scenes are seen from the working directory. */
-constexpr const char* no_file = "scene";
-
-/** A number that stands for a field or expression: of a vector its magnitude. */
-std::string number_text(const data& volume, const std::string& field) {
-    const elvis_string name = field.c_str();
-    return volume.count_values(&name, 1) == 1 ? field : std::string("norm(").append(field).append(")");
-}
 
 nlohmann::json device_of(const context& library) { return nlohmann::json::parse(library.describe_device()); }
 
@@ -38,29 +27,45 @@ DeviceUse Session::device_use() const {
 
 std::vector<std::string> Session::validation_messages() const { return device_of(m_library)["validation_messages"]; }
 
-bool Session::is_foreign(const std::string& path) const {
-    return nlohmann::json::parse(m_library.describe_file(path))["kind"] == "foreign";
-}
+std::string Session::kind_of(const std::string& path) const { return Json::parse(m_library.describe_file(path))["kind"]; }
+
+Scene Session::read(const std::string& path) const { return Json::parse(m_library.read_scene(path).text()); }
 
 VolumeFacts Session::open(const Scene& scene) {
-    std::vector<std::string> files{scene.volume};
-    files.insert(files.end(), scene.more_files.begin(), scene.more_files.end());
-    std::string key;
-    for (const std::string& file : files) {
-        key += file + '\n';
-    }
-    key += '\n' + scene.plugin + '\n' + scene.plugin_options;
+    Json files = part_of(scene, "volume");
+    files.erase("time_step");
+    std::string key = files.dump();
     if (!m_data || key != m_key) {
-        if (scene.volume.empty()) {
-            throw Error("the scene names no volume");
-        }
-        data opened = m_library.open(files, scene.plugin, scene.plugin_options);
-        opened.prepare(library_scene(scene));
+        const elvis::scene shown = library_scene(scene);
+        data opened = shown.open_volume();
+        opened.prepare(shown);
         m_displaced.reset();
         m_data = std::move(opened);
         m_key = std::move(key);
     }
     return facts_of(*m_data, m_library);
+}
+
+Scene Session::first_scene(const std::vector<std::string>& files) { return view::first_scene(m_library, opened(), files); }
+
+Scene Session::with_whole_camera(const Scene& scene, const VolumeFacts& volume) const {
+    elvis::scene complete = library_scene(scene);
+    complete.complete_camera(volume.extent());
+    return Json::parse(complete.text());
+}
+
+Camera Session::fitted(const Scene& scene, const Camera& camera, const VolumeFacts& volume) const {
+    Scene wanted = scene;
+    say_camera(wanted["camera"], camera);
+    elvis::scene placed = library_scene(wanted);
+    placed.fit_camera(volume.extent());
+    return camera_of(Json::parse(placed.json("/camera")));
+}
+
+void Session::write(const Scene& scene, const std::string& path) const { library_scene(scene).write(path); }
+
+Json Session::transfer(const Scene& scene, const std::array<double, 2>& range, double diagonal) const {
+    return Json::parse(library_scene(scene).transfer(range, diagonal));
 }
 
 const data& Session::opened() const {
@@ -71,26 +76,32 @@ const data& Session::opened() const {
 }
 
 const data& Session::shown(const Scene& scene) {
-    if (!scene.warp) {
+    if (!scene.contains("warp")) {
         m_displaced.reset();
         return opened();
     }
+    const Json& warp = scene["warp"];
+    const std::string field = warp["field"], imaginary = warp.value("imaginary", "");
     auto how = detail::sized<elvis_warp>();
-    how.time_step = scene.time_step;
-    how.field = scene.warp->field.c_str();
-    how.imaginary = scene.warp->imaginary ? scene.warp->imaginary->c_str() : nullptr;
-    how.factor = scene.warp->factor;
-    how.phase = scene.warp->phase;
+    how.time_step = time_step_of(scene);
+    how.field = field.c_str();
+    how.imaginary = detail::or_null(imaginary);
+    how.factor = warp.value("factor", 1.0);
+    how.phase = warp.value("phase", 0.0);
     m_displaced = opened().warp(how, m_watch);
     return *m_displaced;
 }
 
-elvis::scene Session::library_scene(const Scene& scene) const {
-    return m_library.parse_scene(scene_json(scene, no_file).dump());
-}
+elvis::scene Session::library_scene(const Scene& scene) const { return m_library.parse_scene(scene.dump()); }
 
 std::string Session::text_of(const Scene& scene, const std::optional<std::string>& field) const {
-    return with_distances(field.value_or(opened().field(0).name), scene.surfaces);
+    return library_scene(scene).expression(field.value_or(opened().field(0).name));
+}
+
+std::string Session::number_text(const Scene& scene, const data& volume, const std::string& field) const {
+    const std::string text = text_of(scene, field);
+    const elvis_string name = text.c_str();
+    return volume.count_values(&name, 1) == 1 ? text : std::string("norm(").append(text).append(")");
 }
 
 Picture Session::draw(const Scene& scene, const FrameSchedule::Step& step) {
@@ -127,11 +138,9 @@ std::vector<std::string> Session::save_picture(const Scene& scene, const std::st
 }
 
 FieldRange Session::range(const Scene& scene, const std::optional<std::string>& field) {
-    const elvis_range found = shown(scene).range(text_of(scene, field), scene.time_step);
+    const elvis_range found = shown(scene).range(text_of(scene, field), time_step_of(scene));
     return {found.minimum, found.maximum};
 }
-
-Scene Session::first_scene(const std::string& path) { return view::first_scene(m_library, opened(), path); }
 
 Picked Session::pick(const Scene& scene, const PicturePoint& place) {
     return picked_of(nlohmann::json::parse(opened().pick(library_scene(scene), place[0], place[1])));
@@ -139,8 +148,8 @@ Picked Session::pick(const Scene& scene, const PicturePoint& place) {
 
 LineAnswer Session::along(const Scene& scene, const LineProbe& line) {
     commands::SampleWishes wishes;
-    wishes.fields = {text_of(scene, line.field ? line.field : scene.field)};
-    wishes.time_step = scene.time_step;
+    wishes.fields = {text_of(scene, line.field ? line.field : said<std::string>(scene, "field"))};
+    wishes.time_step = time_step_of(scene);
     return answer_of(
         line, commands::sample(shown(scene), commands::points_along({line.from, line.to}, n_line_points), wishes, m_watch));
 }
@@ -151,7 +160,7 @@ Numbers Session::numbers(const Scene& scene, const NumbersQuestion& question, co
     row.is_done = true;
     try {
         const data& volume = shown(scene);
-        const std::string field = number_text(volume, with_distances(question.field, scene.surfaces));
+        const std::string field = number_text(scene, volume, question.field);
         if (question.domain == ELVIS_DOMAIN_VOLUME) {
             row.extrema = volume.range(field, question.time_step);
         }
@@ -168,7 +177,7 @@ Numbers Session::numbers(const Scene& scene, const NumbersQuestion& question, co
         std::ranges::copy(question.plane, wanted.plane);
         std::string level_field;
         if (question.domain == ELVIS_DOMAIN_ISOSURFACE) {
-            level_field = number_text(volume, with_distances(question.level_field, scene.surfaces));
+            level_field = number_text(scene, volume, question.level_field);
             wanted.level_field = level_field.c_str();
             wanted.isovalue = question.isovalue;
         }

@@ -4,16 +4,15 @@
  */
 #pragma once
 
+#include "frame_schedule.hpp"
 #include "line_probe.hpp"
 #include "numbers.hpp"
 #include "pick.hpp"
 #include "picture.hpp"
+#include "scene.hpp"
 #include "volume_facts.hpp"
 
 #include <core/base/cancel.hpp>
-#include <core/render/frame_schedule.hpp>
-#include <core/scene/camera_ray.hpp>
-#include <core/scene/scene.hpp>
 
 #include <elvis/elvis.hpp>
 
@@ -24,6 +23,11 @@
 #include <vector>
 
 namespace elvis::view {
+
+/** Of a field. */
+struct FieldRange {
+    double lower = 0, upper = 0;
+};
 
 /** What the device that draws holds. */
 struct DeviceUse {
@@ -41,13 +45,22 @@ public:
     /** Asks for an end of what is being drawn. For any thread. */
     TaskControl& control() { return m_control; }
 
-    /** A foreign file, which is to be converted first. Throws where it is nobody's. */
-    bool is_foreign(const std::string& path) const;
+    /** "scene", "volume", or "foreign", which is to be converted first. Throws where it is nobody's. */
+    std::string kind_of(const std::string& path) const;
+    Scene read(const std::string& path) const;
     /** Opens the scene's volume, unless it is open. After an error the volume that was open before still is. */
     VolumeFacts open(const Scene& scene);
+    /** A new scene of the volume that is open: what a picture of it shows first. */
+    Scene first_scene(const std::vector<std::string>& files);
 
-    /** A new scene of the volume: what a picture of it shows first. */
-    Scene first_scene(const std::string& path);
+    /** The scene with all of its camera said. For any thread. */
+    Scene with_whole_camera(const Scene& scene, const VolumeFacts& volume) const;
+    /** With another camera, which the volume fills. For any thread. */
+    Camera fitted(const Scene& scene, const Camera& camera, const VolumeFacts& volume) const;
+    /** Appears whole or not at all. For any thread. */
+    void write(const Scene& scene, const std::string& path) const;
+    /** JSON of elvis_scene_get_transfer. For any thread. */
+    Json transfer(const Scene& scene, const std::array<double, 2>& range, double diagonal) const;
 
     /** As the step shows it, but of full size, as is its annotation. */
     Picture draw(const Scene& scene, const FrameSchedule::Step& step);
@@ -71,6 +84,8 @@ private:
     /** What the scene shows of it: displaced, if it has a warp. */
     const data& shown(const Scene& scene);
     std::string text_of(const Scene& scene, const std::optional<std::string>& field) const;
+    /** A number that stands for a field or expression of the scene: of a vector its magnitude. */
+    std::string number_text(const Scene& scene, const data& volume, const std::string& field) const;
 
     context m_library;
     TaskControl m_control;

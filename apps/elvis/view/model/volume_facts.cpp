@@ -2,7 +2,6 @@
 
 #include <core/base/bounds.hpp>
 
-#include <elvis/native/space.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -13,7 +12,8 @@ namespace {
 
 /** As people call it, of its id. */
 std::string plugin_name(const context& library, const std::string& id) {
-    for (const nlohmann::json& plugin : nlohmann::json::parse(library.list_plugins())["plugins"]) {
+    const auto known = nlohmann::json::parse(library.list_plugins());
+    for (const nlohmann::json& plugin : known["plugins"]) {
         if (plugin["id"] == id) {
             return plugin["name"];
         }
@@ -21,24 +21,22 @@ std::string plugin_name(const context& library, const std::string& id) {
     return id;
 }
 
-std::vector<FieldInfo> fields_of(const data& volume, std::uint32_t n_fields) {
-    std::vector<FieldInfo> fields;
+std::vector<FieldFacts> fields_of(const data& volume, std::uint32_t n_fields) {
+    std::vector<FieldFacts> fields;
     for (std::uint32_t index = 0; index < n_fields; ++index) {
         const elvis_field field = volume.field(index);
-        fields.push_back({field.name, field.unit, field.n_components, field.continuity, field.transform, field.max_jump});
+        fields.push_back({field.name, field.unit, field.n_components});
     }
     return fields;
 }
 
 /** Of classes, each once, in their order. */
-std::vector<std::uint32_t> shapes_of(const nlohmann::json& classes) {
-    std::vector<std::uint32_t> shapes;
+std::vector<std::string> shapes_of(const nlohmann::json& classes) {
+    std::vector<std::string> shapes;
     for (const nlohmann::json& element_class : classes) {
-        for (std::uint32_t shape = ELVIS_SHAPE_HEXAHEDRON; shape <= ELVIS_SHAPE_TRIANGLE; ++shape) {
-            const bool is_new = std::ranges::find(shapes, shape) == shapes.end();
-            if (is_new && element_class["shape"] == native::name(native::Shape{shape})) {
-                shapes.push_back(shape);
-            }
+        const std::string shape = element_class["shape"];
+        if (std::ranges::find(shapes, shape) == shapes.end()) {
+            shapes.push_back(shape);
         }
     }
     return shapes;
@@ -47,6 +45,14 @@ std::vector<std::uint32_t> shapes_of(const nlohmann::json& classes) {
 } // namespace
 
 double VolumeFacts::diagonal() const { return diagonal_of(bounds); }
+
+elvis_extent VolumeFacts::extent() const {
+    auto extent = detail::sized<elvis_extent>();
+    std::ranges::copy(bounds, extent.bounds);
+    extent.outline = outline.empty() ? nullptr : outline.front().data();
+    extent.n_outline = outline.size();
+    return extent;
+}
 
 VolumeFacts facts_of(const data& volume, const context& library) {
     const elvis_data_info info = volume.info();

@@ -4,8 +4,7 @@
  */
 #pragma once
 
-#include <core/plugin_host/runtime_volume.hpp>
-#include <core/scene/resolve.hpp>
+#include <core/base/vector3.hpp>
 
 #include <elvis/elvis.hpp>
 
@@ -16,6 +15,11 @@
 
 namespace elvis::view {
 
+struct FieldFacts {
+    std::string name, unit;
+    std::uint32_t n_components = 1;
+};
+
 struct VolumeFacts {
     std::string path;
     std::string plugin;
@@ -23,14 +27,15 @@ struct VolumeFacts {
     std::uint64_t n_elements = 0;
     std::array<double, 6> bounds{}; ///< min x y z, max x y z
     std::vector<Vector3> outline;   ///< ELVIS_DESCRIBE_OUTLINE
-    std::vector<FieldInfo> fields;
+    std::vector<FieldFacts> fields;
     std::vector<double> times;
     std::vector<std::string> boundary_groups;
     bool has_faces = false;
-    std::vector<std::uint32_t> shapes; ///< ELVIS_SHAPE_..., each once
+    std::vector<std::string> shapes; ///< names, each once
 
     double diagonal() const;
-    VolumeExtent extent() const { return {bounds, outline}; }
+    /** What its camera is to show; valid as long as these facts. */
+    elvis_extent extent() const;
 };
 
 VolumeFacts facts_of(const data& volume, const context& library);

@@ -4,9 +4,9 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
-#include <core/scene/write/write_scene.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <utility>
@@ -40,82 +40,60 @@ void Workbench::say(Message::Kind kind, std::string text) {
     }
 }
 
-void Workbench::open(const std::string& path) {
+void Workbench::open_files(const std::vector<std::string>& paths, bool asks) {
+    const std::string& path = paths.front();
+    if (!std::filesystem::exists(path)) {
+        say(Message::Kind::error, Error(path, "there is no such file").what());
+        return;
+    }
+    m_worker.post(
+        "opening " + std::filesystem::path(path).filename().string(),
+        [this, paths, path, asks](Session& session) -> FrameWorker::Answer {
+            const std::string kind = paths.size() == 1 ? session.kind_of(path) : "foreign";
+            if (asks && kind == "foreign") {
+                return [this, path] { foreign_file = path; };
+            }
+            const bool is_scene = kind == "scene";
+            const Scene scene = is_scene ? session.read(path) : scene_of_files(paths);
+            VolumeFacts facts = session.open(scene);
+            return [this, scene = is_scene ? scene : session.first_scene(paths), facts = std::move(facts),
+                    file = is_scene ? path : std::string(),
+                    path]() mutable { show(std::move(scene), std::move(facts), file, path); };
+        },
+        [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+void Workbench::show(Scene scene, VolumeFacts facts, const std::string& file, const std::string& path) {
+    if (file.empty()) {
+        scene["image"]["size"] = size_of(m_model.scene());
+    }
+    ++m_volume_number;
+    m_ranges.clear();
+    m_histograms.clear();
+    m_picked.reset();
+    line.reset();
+    m_line_answer.reset();
+    m_line_key.clear();
+    stop_numbers();
+    m_numbers.clear();
+    m_picture = {};
+    m_stage = FrameStage::none;
+    say(Message::Kind::info,
+        "opened " + path + ": " + counted(facts.n_elements, "element") + ", " + counted(facts.fields.size(), "field"));
     try {
-        if (!std::filesystem::exists(path)) {
-            throw Error(path, "there is no such file");
-        }
-        if (is_scene(path)) {
-            Scene scene = read_scene(path);
-            open_scene(std::move(scene), path, path);
-        } else {
-            Scene scene;
-            scene.volume = path;
-            open_scene(std::move(scene), {}, path);
-        }
+        Scene whole = m_session->with_whole_camera(scene, facts);
+        m_model.open(std::move(whole), std::move(facts), file);
     } catch (const std::exception& error) {
         say(Message::Kind::error, error.what());
     }
-}
-
-void Workbench::open_files(const std::vector<std::string>& paths) {
-    if (paths.size() == 1 && (!std::filesystem::exists(paths.front()) || is_scene(paths.front()))) {
-        open(paths.front());
-        return;
+    if (on_file) {
+        on_file(path);
     }
-    Scene scene;
-    scene.volume = paths.front();
-    scene.more_files.assign(paths.begin() + 1, paths.end());
-    open_scene(std::move(scene), {}, paths.front(), false);
-}
-
-void Workbench::open_scene(Scene scene, const std::string& file, const std::string& path, bool asks) {
-    scene.size = file.empty() ? m_model.scene().size : scene.size;
-    const auto job = [this, scene = std::move(scene), file, path, asks](Session& session) mutable -> FrameWorker::Answer {
-        if (asks && file.empty() && session.is_foreign(path)) {
-            return [this, path] { foreign_file = path; };
-        }
-        VolumeFacts facts = session.open(scene);
-        if (file.empty()) {
-            const std::array<std::uint32_t, 2> size = scene.size;
-            std::vector<std::string> more_files = std::move(scene.more_files);
-            scene = session.first_scene(path);
-            scene.more_files = std::move(more_files);
-            scene.size = size;
-        }
-        return [this, scene = std::move(scene), facts = std::move(facts), file, path]() mutable {
-            // The window may have got its size since.
-            scene.size = file.empty() ? m_model.scene().size : scene.size;
-            ++m_volume_number;
-            m_ranges.clear();
-            m_histograms.clear();
-            m_picked.reset();
-            line.reset();
-            m_line_answer.reset();
-            m_line_key.clear();
-            stop_numbers();
-            m_numbers.clear();
-            m_picture = {};
-            m_stage = FrameStage::none;
-            say(Message::Kind::info,
-                "opened " + path + ": " + counted(facts.n_elements, "element") + ", " + counted(facts.fields.size(), "field"));
-            try {
-                m_model.open(std::move(scene), std::move(facts), file);
-            } catch (const std::exception& error) {
-                say(Message::Kind::error, error.what());
-            }
-            if (on_file) {
-                on_file(path);
-            }
-        };
-    };
-    m_worker.post("opening " + std::filesystem::path(path).filename().string(), job,
-                  [this](const std::string& error) { say(Message::Kind::error, error); });
 }
 
 void Workbench::save_scene(const std::string& path) {
     try {
-        write_scene(m_model.scene(), path);
+        m_session->write(m_model.scene(), path);
         m_model.saved(path);
         say(Message::Kind::info, "saved the scene as " + path);
         if (on_file) {
@@ -133,17 +111,11 @@ void Workbench::save_picture(const std::string& path, const std::array<std::uint
         say(Message::Kind::error, error.what());
         return;
     }
-    Scene scene = m_model.scene();
-    // The shift is in pixels: a larger picture has what is looked at in the same place.
-    for (double& shift : scene.camera.image_shift) {
-        shift *= static_cast<double>(size[1]) / scene.size[1];
-    }
-    scene.size = size;
     m_worker.post(
         "drawing " + std::filesystem::path(path).filename().string(),
-        [this, scene = std::move(scene), path, bits](Session& session) -> FrameWorker::Answer {
+        [this, scene = resized(m_model.scene(), size), path, bits](Session& session) -> FrameWorker::Answer {
             std::vector<std::string> remarks = session.save_picture(scene, path, bits);
-            return [this, path, remarks = std::move(remarks), size = scene.size] {
+            return [this, path, remarks = std::move(remarks), size = size_of(scene)] {
                 say(Message::Kind::info,
                     "saved the picture as " + path + ", " + std::to_string(size[0]) + "x" + std::to_string(size[1]));
                 for (const std::string& remark : remarks) {
@@ -173,7 +145,7 @@ const LineAnswer* Workbench::line_answer() {
     if (!line || !m_model.volume()) {
         return nullptr;
     }
-    std::string key = field_key(line->field ? line->field : m_model.scene().field);
+    std::string key = field_key(line->field ? line->field : said<std::string>(m_model.scene(), "field"));
     for (const Vector3& end : {line->from, line->to}) {
         key.append(reinterpret_cast<const char*>(end.data()), sizeof end);
     }
@@ -265,11 +237,9 @@ void Workbench::find_row(std::size_t row, const Scene& scene) {
 
 std::string Workbench::field_key(const std::optional<std::string>& field) const {
     const Scene& scene = m_model.scene();
-    std::string key = std::to_string(scene.time_step);
-    if (scene.warp) {
-        // Derivatives are those in the displaced coordinates.
-        key += scene_json(scene, "scene")["warp"].dump();
-    }
+    std::string key = std::to_string(time_step_of(scene));
+    // Derivatives are those in the displaced coordinates.
+    key += part_of(scene, "warp").dump();
     const std::string text = field.value_or("");
     // Distances are to surfaces of the scene, which may move.
     if (text.find("distance") != std::string::npos) {
@@ -279,6 +249,24 @@ std::string Workbench::field_key(const std::optional<std::string>& field) const 
     key += '|';
     key += text;
     return key;
+}
+
+const Json& Workbench::transfer(const Json& color_map, const Json& volume_rendering, const std::array<double, 2>& range) {
+    const Scene scene{{"version", 1}, {"color_map", color_map}, {"volume_rendering", volume_rendering}};
+    const std::string key = scene.dump() + Json(range).dump();
+    constexpr std::size_t most_transfers = 100;
+    if (m_transfers.size() >= most_transfers && !m_transfers.contains(key)) {
+        m_transfers.clear();
+    }
+    const auto [found, is_new] = m_transfers.try_emplace(key);
+    if (is_new) {
+        try {
+            found->second = m_session->transfer(scene, range, m_model.volume()->diagonal());
+        } catch (const std::exception&) {
+            found->second = {{"color", Json::array()}, {"density", Json::array()}};
+        }
+    }
+    return found->second;
 }
 
 std::optional<FieldRange> Workbench::range(const std::optional<std::string>& field) {
@@ -396,11 +384,13 @@ void Workbench::take(const ConversionResult& result) {
     if (!result.said.empty()) {
         say(Message::Kind::warning, result.said);
     }
-    for (const FieldReport& field : result.report.fields) {
+    for (const Json& field : result.report["fields"]) {
+        const bool is_exact = field["exact"];
+        const double residual = field["residual"].is_number() ? field["residual"].get<double>() : std::nan("");
         char text[200];
-        std::snprintf(text, sizeof text, "field %s: %s, residual %.3g of its range", field.name.c_str(),
-                      field.exact ? "exact but for round-off" : "NOT exact", field.residual);
-        say(field.exact ? Message::Kind::info : Message::Kind::warning, text);
+        std::snprintf(text, sizeof text, "field %s: %s, residual %.3g of its range", field["name"].get<std::string>().c_str(),
+                      is_exact ? "exact but for round-off" : "NOT exact", residual);
+        say(is_exact ? Message::Kind::info : Message::Kind::warning, text);
     }
     open(result.output);
 }

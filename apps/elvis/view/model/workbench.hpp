@@ -47,9 +47,9 @@ public:
     const Model& model() const { return m_model; }
 
     /** A volume, a scene, or a foreign file, for which a conversion is then offered. */
-    void open(const std::string& path);
+    void open(const std::string& path) { open_files({path}, true); }
     /** What the command line names: foreign files are converted into the cache without a question. */
-    void open_files(const std::vector<std::string>& paths);
+    void open_files(const std::vector<std::string>& paths) { open_files(paths, false); }
     void save_scene(const std::string& path);
     void save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits);
     /** What is seen at a place of the picture. */
@@ -68,6 +68,14 @@ public:
     bool is_finding_numbers() const;
     /** The scene asks for the same rows still. */
     bool has_present_numbers() const;
+
+    /** The camera there, as near as it sees all of the volume. */
+    Camera fitted(const Camera& camera) const { return m_session->fitted(m_model.scene(), camera, *m_model.volume()); }
+    /**
+     * JSON of elvis_scene_get_transfer for a scene of these parts alone; of what the library refuses, nothing: the picture says
+     * why.
+     */
+    const Json& transfer(const Json& color_map, const Json& volume_rendering, const std::array<double, 2>& range);
 
     /** Of a field or expression at the present time step; asked for when it is not known yet, and nothing until then. */
     std::optional<FieldRange> range(const std::optional<std::string>& field);
@@ -115,7 +123,8 @@ private:
     /** Adds the values at some more points to a histogram, and then asks for more. */
     void sample(const std::optional<std::string>& field, const std::string& key, unsigned piece);
     /** `asks`: before a foreign file is converted. */
-    void open_scene(Scene scene, const std::string& file, const std::string& path, bool asks = true);
+    void open_files(const std::vector<std::string>& paths, bool asks);
+    void show(Scene scene, VolumeFacts facts, const std::string& file, const std::string& path);
     void find_row(std::size_t row, const Scene& scene);
     std::string field_key(const std::optional<std::string>& field) const;
     void take(DrawAnswer answer, double showing_milliseconds);
@@ -134,6 +143,8 @@ private:
     std::optional<Picked> m_picked;
     std::map<std::string, std::optional<FieldRange>> m_ranges;
     std::map<std::string, std::optional<Histogram>> m_histograms;
+    /** The last ones asked for. */
+    std::map<std::string, Json> m_transfers;
     /** What the answer is of: the line, the time step, the warp. */
     std::string m_line_key;
     bool m_is_asking_line = false;

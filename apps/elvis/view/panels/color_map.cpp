@@ -1,6 +1,6 @@
 #include "panels.hpp"
 
-#include <core/scene/color/color_map.hpp>
+#include <apps/elvis/view/model/value_scale.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,29 +10,27 @@ namespace elvis::view {
 
 namespace {
 
-/** Points of a map on [0, 1], linear in between; empty if the map cannot be made. */
-std::vector<SceneColorMap::Point> points_of(const SceneColorMap& map) {
-    std::vector<SceneColorMap::Point> points;
-    try {
-        SceneColorMap plain = map;
-        plain.range.reset();
-        plain.is_logarithmic = false;
-        for (const ColorTable::Point& point : make_color_table(plain, {0, 1}).points) {
-            points.push_back({point.value, point.rgb});
-        }
-    } catch (const std::exception&) {
-        points.clear(); // The picture says why.
+/** Position, red, green, blue. */
+using MapPoints = std::vector<std::array<double, 4>>;
+
+/** Points of a map on [0, 1], linear in between; empty if the map cannot be made: the picture says why. */
+MapPoints points_of(Ui& ui, const Json& map) {
+    Json plain = map;
+    for (const char* const key : {"range", "scale", "below", "above", "nan"}) {
+        plain.erase(key);
     }
-    return points;
+    return ui.bench.transfer(plain, Json::object(), {0, 1})["color"];
 }
 
-ImU32 packed(const Rgb& rgb) {
+bool is_logarithmic(const Json& map) { return map.value("scale", "") == "logarithmic"; }
+
+ImU32 packed(const std::array<double, 4>& point) {
     const auto byte = [](double x) { return static_cast<int>(std::lround(255 * std::clamp(x, 0.0, 1.0))); };
-    return IM_COL32(byte(rgb[0]), byte(rgb[1]), byte(rgb[2]), 255);
+    return IM_COL32(byte(point[1]), byte(point[2]), byte(point[3]), 255);
 }
 
 /** The colours, with the field's histogram above them. */
-void draw_bar(Ui& ui, const std::string& name, const SceneColorMap& map, const Histogram* histogram,
+void draw_bar(Ui& ui, const std::string& name, const Json& map, const Histogram* histogram,
               const std::array<double, 2>& range) {
     const float width = ImGui::GetContentRegionAvail().x;
     const float height = ImGui::GetFrameHeight();
@@ -42,8 +40,8 @@ void draw_bar(Ui& ui, const std::string& name, const SceneColorMap& map, const H
     explain(ui, name + "/bar",
             "The colours from the lower to the upper end of the range; above, how often the field takes each value");
     ImDrawList* list = ImGui::GetWindowDrawList();
-    if (histogram != nullptr && range[1] > range[0] && (range[0] > 0 || !map.is_logarithmic)) {
-        const ColorScale scale(range, map.is_logarithmic);
+    if (histogram != nullptr && range[1] > range[0] && (range[0] > 0 || !is_logarithmic(map))) {
+        const ValueScale scale(range, is_logarithmic(map));
         const std::vector<float>& bins = histogram->bins();
         const double extent = histogram->upper() - histogram->lower();
         for (std::size_t bin = 0; bin < bins.size(); ++bin) {
@@ -59,149 +57,149 @@ void draw_bar(Ui& ui, const std::string& name, const SceneColorMap& map, const H
         }
     }
     corner.y += above;
-    const std::vector<SceneColorMap::Point> points = points_of(map);
+    const MapPoints points = points_of(ui, map);
     for (std::size_t i = 1; i < points.size(); ++i) {
-        const ImU32 left = packed(points[i - 1].rgb), right = packed(points[i].rgb);
-        list->AddRectFilledMultiColor(ImVec2(corner.x + static_cast<float>(points[i - 1].position) * width, corner.y),
-                                      ImVec2(corner.x + static_cast<float>(points[i].position) * width, corner.y + height),
-                                      left, right, right, left);
+        const ImU32 left = packed(points[i - 1]), right = packed(points[i]);
+        list->AddRectFilledMultiColor(ImVec2(corner.x + static_cast<float>(points[i - 1][0]) * width, corner.y),
+                                      ImVec2(corner.x + static_cast<float>(points[i][0]) * width, corner.y + height), left,
+                                      right, right, left);
     }
 }
 
-bool edit_points(Ui& ui, const std::string& name, SceneColorMap& map) {
-    bool is_changed = false;
-    static const std::vector<std::string> spaces = {"rgb", "lab", "hsv", "diverging", "step"};
-    auto space = static_cast<std::size_t>(map.space);
-    if (choice(ui, name + "/space", "Between", space, spaces, "How colours between the points are found")) {
-        map.space = static_cast<ColorSpace>(space);
-        is_changed = true;
-    }
+bool edit_points(Ui& ui, const std::string& name, Json& map) {
+    bool is_changed = choice(ui, name + "/space", "Between", map, "space", {"rgb", "lab", "hsv", "diverging", "step"},
+                             "How colours between the points are found");
+    auto points = map["points"].get<MapPoints>();
     std::optional<std::size_t> removed;
-    for (std::size_t i = 0; i < map.points.size(); ++i) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         const std::string point = name + "/point" + std::to_string(i);
-        is_changed = color(ui, point + "/color", "##color", map.points[i].rgb, "Colour of this point") || is_changed;
+        Rgb rgb{points[i][1], points[i][2], points[i][3]};
+        double position = points[i][0];
+        is_changed = color(ui, point + "/color", "##color", rgb, "Colour of this point") || is_changed;
         ImGui::SameLine();
         ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
-        double position = map.points[i].position;
         if (number(ui, point + "/position", "##position", position, 1,
                    "Its place; the first and the last are the ends of the range")) {
-            const double least = i > 0 ? map.points[i - 1].position : -1e300;
-            const double most = i + 1 < map.points.size() ? map.points[i + 1].position : 1e300;
-            map.points[i].position = std::clamp(position, least, most);
+            const double least = i > 0 ? points[i - 1][0] : -1e300;
+            const double most = i + 1 < points.size() ? points[i + 1][0] : 1e300;
+            position = std::clamp(position, least, most);
             is_changed = true;
         }
+        points[i] = {position, rgb[0], rgb[1], rgb[2]};
         ImGui::SameLine();
         if (small_button(ui, point + "/split", "+", "Adds a point behind this one")) {
-            const SceneColorMap::Point from = map.points[i];
-            const SceneColorMap::Point to = map.points[std::min(i + 1, map.points.size() - 1)];
-            SceneColorMap::Point middle{0.5 * (from.position + to.position), {}};
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                middle.rgb[channel] = 0.5 * (from.rgb[channel] + to.rgb[channel]);
+            std::array<double, 4> middle = points[i];
+            for (std::size_t n = 0; n < 4; ++n) {
+                middle[n] = 0.5 * (middle[n] + points[std::min(i + 1, points.size() - 1)][n]);
             }
-            map.points.insert(map.points.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
+            points.insert(points.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
             is_changed = true;
         }
         ImGui::SameLine();
-        if (map.points.size() > 2 && small_button(ui, point + "/remove", "-", "Removes this point")) {
+        if (points.size() > 2 && small_button(ui, point + "/remove", "-", "Removes this point")) {
             removed = i;
         }
         ImGui::PopID();
     }
     if (removed) {
-        map.points.erase(map.points.begin() + static_cast<std::ptrdiff_t>(*removed));
+        points.erase(points.begin() + static_cast<std::ptrdiff_t>(*removed));
         is_changed = true;
+    }
+    if (is_changed) {
+        map["points"] = points;
     }
     return is_changed;
 }
 
-/** Which colours. */
-bool edit_colors(Ui& ui, const std::string& name, SceneColorMap& map) {
-    bool is_changed = false;
-    std::vector<std::string> words = color_map_names();
-    const std::size_t n_names = words.size();
-    words.emplace_back("own colours");
-    if (!map.file.empty()) {
-        words.push_back(std::filesystem::path(map.file).filename().string());
+/** Other colours, with the ends as they are. */
+void set_colors(Json& map, const char* key, const Json& colors) {
+    for (const char* const other : {"name", "file", "points", "space"}) {
+        map.erase(other);
     }
-    std::size_t chosen = n_names;
-    if (!map.file.empty()) {
-        chosen = n_names + 1;
-    } else if (map.points.empty()) {
-        const std::string shown = map.name.empty() ? "viridis" : map.name; // As make_color_table has it.
-        chosen = static_cast<std::size_t>(std::find(words.begin(), words.end(), shown) - words.begin());
+    map[key] = colors;
+}
+
+/** Some points of the map, linear in between, to start from. */
+MapPoints few_points_of(Ui& ui, const Json& map) {
+    const MapPoints all = points_of(ui, map);
+    constexpr std::size_t n_points = 5;
+    MapPoints few;
+    for (std::size_t i = 0; i < n_points && !all.empty(); ++i) {
+        const double position = static_cast<double>(i) / (n_points - 1);
+        few.push_back(*std::ranges::min_element(all, {}, [=](const auto& point) { return std::abs(point[0] - position); }));
+        few.back()[0] = position;
+    }
+    return few;
+}
+
+/** Which colours. */
+bool edit_colors(Ui& ui, const std::string& name, Json& map) {
+    bool is_changed = false;
+    static const std::vector<std::string> names = schema_words("/$defs/color_map/properties/name/enum");
+    std::vector<std::string> words = names;
+    words.emplace_back("own colours");
+    auto file = map.value("file", std::string());
+    std::size_t chosen = names.size();
+    if (!file.empty()) {
+        words.push_back(std::filesystem::path(file).filename().string());
+        chosen = names.size() + 1;
+    } else if (!map.contains("points")) {
+        chosen = static_cast<std::size_t>(std::ranges::find(names, map.value("name", names.front())) - names.begin());
     }
     if (choice(ui, name + "/map", "Colours", chosen, words, "The colour map, by name; or colours of your own")) {
-        if (chosen < n_names) {
-            map.name = words[chosen];
-            map.file.clear();
-            map.points.clear();
-            map.space = ColorSpace::rgb;
-        } else if (chosen == n_names) {
-            // As they are now, to start from: some points of the map, linear in between.
-            const std::vector<SceneColorMap::Point> all = points_of(map);
-            constexpr std::size_t n_points = 5;
-            map.points.clear();
-            for (std::size_t i = 0; i < n_points && !all.empty(); ++i) {
-                const double position = static_cast<double>(i) / (n_points - 1);
-                const auto nearest = std::min_element(all.begin(), all.end(), [position](const auto& a, const auto& b) {
-                    return std::abs(a.position - position) < std::abs(b.position - position);
-                });
-                map.points.push_back({position, nearest->rgb});
-            }
-            map.name.clear();
-            map.file.clear();
-            map.space = ColorSpace::rgb;
+        if (chosen < names.size()) {
+            set_colors(map, "name", names[chosen]);
+        } else if (const MapPoints few = few_points_of(ui, map); chosen == names.size() && !few.empty()) {
+            set_colors(map, "points", few);
         }
         is_changed = true;
     }
-    std::string file = map.file;
     if (text(ui, name + "/file", "From file", file, "A colour map of ParaView (JSON) or of the original ElVis (XML)", "file")) {
-        map.file = file;
-        if (!file.empty()) {
-            map.name.clear();
-            map.points.clear();
+        if (file.empty()) {
+            map.erase("file");
+        } else {
+            set_colors(map, "file", file);
         }
         is_changed = true;
     }
-    if (!map.points.empty()) {
+    if (map.contains("points")) {
         is_changed = edit_points(ui, name, map) || is_changed;
     }
     return is_changed;
 }
 
 /** Which values are at its ends. */
-bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::optional<std::string>& field) {
+bool edit_range(Ui& ui, const std::string& name, Json& map, const std::optional<std::string>& field) {
     bool is_changed = false;
     const std::optional<FieldRange> data = ui.bench.range(field);
-    std::array<double, 2> range =
-        map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1});
+    std::array<double, 2> range = range_of(map, data);
+    bool is_log = is_logarithmic(map);
     const auto set = [&](double lower, double upper) {
-        if (lower < upper && (lower > 0 || !map.is_logarithmic)) {
-            map.range = {lower, upper};
+        if (lower < upper && (lower > 0 || !is_log)) {
+            map["range"] = {lower, upper};
             is_changed = true;
         }
     };
-    if (check(ui, name + "/logarithmic", "Logarithmic", map.is_logarithmic,
+    if (check(ui, name + "/logarithmic", "Logarithmic", is_log,
               "Equal parts of the colours are for equal ratios of values; those not above 0 have the colour of what is not a "
               "number")) {
         is_changed = true;
-        if (map.is_logarithmic && !(range[0] > 0)) {
+        say(map, "scale", is_log ? std::optional("logarithmic") : std::nullopt);
+        if (is_log && !(range[0] > 0)) {
             // The range must be above 0: some decades below its upper end.
             constexpr double decades = 1e-4;
             range[1] = range[1] > 0 ? range[1] : 1;
             range[0] = decades * range[1];
-            map.range = range;
+            map["range"] = range;
         }
     }
-    bool is_fixed = map.range.has_value();
-    ImGui::BeginDisabled(map.is_logarithmic && data && !(data->lower > 0));
-    if (check(ui, name + "/fixed", "Fixed range", is_fixed, "Else the range is that of the field at this time step")) {
-        map.range = is_fixed ? std::optional(range) : std::nullopt;
-        is_changed = true;
-    }
+    ImGui::BeginDisabled(is_log && data && !(data->lower > 0));
+    is_changed = optional_part(ui, name + "/fixed", "Fixed range", map, "range", range,
+                               "Else the range is that of the field at this time step") ||
+                 is_changed;
     ImGui::EndDisabled();
-    if (map.range) {
+    if (map.contains("range")) {
         const double extent = data ? data->upper - data->lower : 1;
         double lower = range[0], upper = range[1];
         if (number(ui, name + "/lower", "Lowest", lower, extent, "Value at the lower end of the colours")) {
@@ -215,7 +213,7 @@ bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::
         return is_changed;
     }
     ImGui::Text("Field: %.6g to %.6g", data->lower, data->upper);
-    ImGui::BeginDisabled(map.is_logarithmic);
+    ImGui::BeginDisabled(is_log);
     if (button(ui, name + "/symmetric", "Symmetric", "From minus to plus the largest value of the field")) {
         const double most = std::max(std::abs(data->lower), std::abs(data->upper));
         set(-most, most);
@@ -239,104 +237,36 @@ bool edit_range(Ui& ui, const std::string& name, SceneColorMap& map, const std::
 
 } // namespace
 
-bool edit_color_map(Ui& ui, const std::string& name, SceneColorMap& map, const std::optional<std::string>& field) {
+std::array<double, 2> range_of(const Json& map, const std::optional<FieldRange>& data) {
+    return map.value("range", data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1});
+}
+
+bool edit_color_map(Ui& ui, const std::string& name, Json& owner, const std::optional<std::string>& field) {
     ImGui::PushID(name.c_str());
+    Json map = part_of(owner, "color_map");
     bool is_changed = edit_colors(ui, name, map);
     const std::optional<FieldRange> data = ui.bench.range(field);
     const Histogram* histogram = ui.bench.histogram(field);
-    if (map.range || data) {
-        draw_bar(ui, name, map, histogram,
-                 map.range.value_or(data ? std::array<double, 2>{data->lower, data->upper} : std::array<double, 2>{0, 1}));
+    if (map.contains("range") || data) {
+        draw_bar(ui, name, map, histogram, range_of(map, data));
     }
     is_changed = edit_range(ui, name, map, field) || is_changed;
     if (ImGui::TreeNode("Outside of the range")) {
-        is_changed = optional_color(ui, name + "/below", "Below", map.below, {0, 0, 0},
+        is_changed = optional_color(ui, name + "/below", "Below", map, "below", {0, 0, 0},
                                     "Colour of smaller values; else that of the lower end") ||
                      is_changed;
-        is_changed = optional_color(ui, name + "/above", "Above", map.above, {1, 1, 1},
+        is_changed = optional_color(ui, name + "/above", "Above", map, "above", {1, 1, 1},
                                     "Colour of larger values; else that of the upper end") ||
                      is_changed;
         is_changed =
-            optional_color(ui, name + "/nan", "Not a number", map.nan, {1, 0, 1}, "Colour of what is not a finite number") ||
+            optional_color(ui, name + "/nan", "Not a number", map, "nan", {1, 0, 1}, "Colour of what is not a finite number") ||
             is_changed;
         ImGui::TreePop();
     }
     ImGui::PopID();
-    return is_changed;
-}
-
-namespace {
-
-bool edit_line_style(Ui& ui, const std::string& name, SceneLineStyle& style) {
-    bool is_changed = slider(ui, name + "/width", "Width", style.width, 1, 16, "In pixels");
-    is_changed = optional_color(ui, name + "/color", "Own colour", style.color, {0, 0, 0},
-                                "Else black or white, whichever stands out; of mesh lines black") ||
-                 is_changed;
-    is_changed = optional_color(ui, name + "/undecided", "Mark undecided", style.undecided_color, {1, 0, 1},
-                                "Colour of pixels for which it stays open whether they meet a line") ||
-                 is_changed;
-    return is_changed;
-}
-
-} // namespace
-
-bool edit_contours(Ui& ui, const std::string& name, std::optional<SceneContours>& contours) {
-    ImGui::PushID(name.c_str());
-    bool has = contours.has_value();
-    bool is_changed = check(ui, name, "Contours", has, "Lines on which the field takes given values");
     if (is_changed) {
-        contours = has ? std::optional(SceneContours{}) : std::nullopt;
-        if (contours) {
-            contours->is_round = true;
-        }
+        owner["color_map"] = std::move(map);
     }
-    if (contours) {
-        ImGui::Indent();
-        if (check(ui, name + "/round", "Round values", contours->is_round,
-                  "Some ten round values in the range of the colours")) {
-            contours->count = contours->is_round ? 0 : 9;
-            contours->values.clear();
-            is_changed = true;
-        }
-        int count = static_cast<int>(contours->count);
-        if (!contours->is_round &&
-            ImGui::SliderInt("Number", &count, 0, 50, count == 0 ? "given values" : "%d", ImGuiSliderFlags_AlwaysClamp)) {
-            contours->count = static_cast<std::uint32_t>(count);
-            is_changed = true;
-            if (count > 0) {
-                contours->values.clear();
-            } else {
-                contours->range.reset();
-            }
-        }
-        if (!contours->is_round) {
-            explain(ui, name + "/count", "So many that divide the range of the colours evenly; 0 for values of your own");
-        }
-        if (!contours->is_round && contours->count == 0) {
-            is_changed =
-                number_list(ui, name + "/values", "Values", contours->values, "Values of the lines, separated by blanks") ||
-                is_changed;
-        }
-        is_changed = edit_line_style(ui, name, contours->style) || is_changed;
-        ImGui::Unindent();
-    }
-    ImGui::PopID();
-    return is_changed;
-}
-
-bool edit_mesh_lines(Ui& ui, const std::string& name, std::optional<SceneLineStyle>& lines) {
-    ImGui::PushID(name.c_str());
-    bool has = lines.has_value();
-    bool is_changed = check(ui, name, "Mesh lines", has, "Where the boundaries of elements meet the surface");
-    if (is_changed) {
-        lines = has ? std::optional(SceneLineStyle{}) : std::nullopt;
-    }
-    if (lines) {
-        ImGui::Indent();
-        is_changed = edit_line_style(ui, name, *lines) || is_changed;
-        ImGui::Unindent();
-    }
-    ImGui::PopID();
     return is_changed;
 }
 

@@ -1,7 +1,6 @@
 #include "panels.hpp"
 
-#include <core/scene/color/color_map.hpp>
-#include <core/scene/color/opacity.hpp>
+#include <apps/elvis/view/model/value_scale.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +8,6 @@
 namespace elvis::view {
 
 namespace {
-
-using DensityPoint = TransferFunction::DensityPoint;
 
 constexpr float point_radius = 5;
 /** How near the cursor must be to take a point. */
@@ -29,7 +26,7 @@ struct Grip {
 struct Plot {
     ImVec2 corner;
     float width, height;
-    ColorScale scale;
+    ValueScale scale;
     double top;
 
     ImVec2 place(double value, double density) const {
@@ -40,28 +37,25 @@ struct Plot {
     double density(const ImVec2& at) const { return top * std::clamp((corner.y + height - at.y) / height, 0.0f, 1.0f); }
 };
 
-/** What the density is without peaks, however it is given. */
-std::vector<DensityPoint> base_density(const SceneVolumeRendering& rendering, const std::array<double, 2>& range,
-                                       double usual) {
-    if (!rendering.density.empty()) {
-        return rendering.density;
-    }
-    if (!rendering.opacity.empty()) {
-        return density_from_opacity(rendering.opacity, rendering.unit_distance);
-    }
-    return rendering.peaks.empty() ? std::vector<DensityPoint>{{range[0], 0}, {range[1], usual}} : std::vector<DensityPoint>{};
-}
+struct Peak {
+    double value, width, density;
+};
+
+Peak peak_of(const Json& peak) { return {peak["value"], peak["width"], peak["density"]}; }
+
+DensityPoints own_density(const Json& rendering) { return rendering.value("density", DensityPoints()); }
 
 /** With their places on the screen. */
 using Grips = std::vector<std::pair<Grip, ImVec2>>;
 
-Grips grips_of(const SceneVolumeRendering& rendering, const Plot& plot) {
+Grips grips_of(const Json& rendering, const Plot& plot) {
     Grips grips;
-    for (std::size_t i = 0; i < rendering.density.size(); ++i) {
-        grips.push_back({{Grip::Kind::point, i}, plot.place(rendering.density[i].value, rendering.density[i].density)});
+    const DensityPoints density = own_density(rendering);
+    for (std::size_t i = 0; i < density.size(); ++i) {
+        grips.push_back({{Grip::Kind::point, i}, plot.place(density[i][0], density[i][1])});
     }
-    for (std::size_t i = 0; i < rendering.peaks.size(); ++i) {
-        const ScenePeak& peak = rendering.peaks[i];
+    for (std::size_t i = 0; i < part_of(rendering, "peaks").size(); ++i) {
+        const Peak peak = peak_of(rendering["peaks"][i]);
         grips.push_back({{Grip::Kind::top, i}, plot.place(peak.value, peak.density)});
         grips.push_back({{Grip::Kind::side, i}, plot.place(peak.value + 0.25 * peak.width, 0.5 * peak.density)});
     }
@@ -80,9 +74,10 @@ void draw_histogram(ImDrawList* list, const Plot& plot, const Histogram& histogr
     }
 }
 
-void draw_peaks(ImDrawList* list, const Plot& plot, const std::vector<ScenePeak>& peaks, float line) {
-    for (const ScenePeak& peak : peaks) {
-        const Rgb rgb = peak.color.value_or(Rgb{0.7, 0.7, 0.7});
+void draw_peaks(ImDrawList* list, const Plot& plot, const Json& peaks, float line) {
+    for (const Json& said_of_it : peaks) {
+        const Peak peak = peak_of(said_of_it);
+        const Rgb rgb = said_of_it.value("color", Rgb{0.7, 0.7, 0.7});
         const auto byte = [](double x) { return static_cast<int>(std::lround(255 * std::clamp(x, 0.0, 1.0))); };
         const ImVec2 left = plot.place(peak.value - 0.5 * peak.width, 0), right = plot.place(peak.value + 0.5 * peak.width, 0),
                      top = plot.place(peak.value, peak.density);
@@ -91,62 +86,66 @@ void draw_peaks(ImDrawList* list, const Plot& plot, const std::vector<ScenePeak>
     }
 }
 
-void draw_density(ImDrawList* list, const Plot& plot, const std::vector<DensityPoint>& points, float line) {
+void draw_density(ImDrawList* list, const Plot& plot, const DensityPoints& points, float line) {
     if (points.empty()) {
         return;
     }
     const ImU32 color = ImGui::GetColorU32(ImGuiCol_PlotLines);
-    ImVec2 before(plot.corner.x, plot.place(points.front().value, points.front().density).y);
-    for (const DensityPoint& point : points) {
-        const ImVec2 at = plot.place(point.value, point.density);
+    ImVec2 before(plot.corner.x, plot.place(points.front()[0], points.front()[1]).y);
+    for (const auto& [value, density] : points) {
+        const ImVec2 at = plot.place(value, density);
         list->AddLine(before, at, color, line);
         before = at;
     }
     list->AddLine(before, ImVec2(plot.corner.x + plot.width, before.y), color, line);
 }
 
+bool drag_point(Json& rendering, std::size_t index, double value, double density) {
+    DensityPoints points = own_density(rendering);
+    if (index >= points.size()) {
+        return false;
+    }
+    const double least = index > 0 ? points[index - 1][0] : -1e300;
+    const double largest = index + 1 < points.size() ? points[index + 1][0] : 1e300;
+    const std::array<double, 2> moved{std::clamp(value, least, largest), density};
+    const bool is_changed = moved != points[index];
+    points[index] = moved;
+    rendering["density"] = points;
+    return is_changed;
+}
+
 /** The hand has the grip, and is at the cursor. Returns whether something changed. */
-bool drag(SceneVolumeRendering& rendering, const Grip& grip, const Plot& plot, const ImVec2& mouse) {
+bool drag(Json& rendering, const Grip& grip, const Plot& plot, const ImVec2& mouse) {
     const double value = plot.value(mouse), density = plot.density(mouse);
     if (grip.kind == Grip::Kind::point) {
-        std::vector<DensityPoint>& points = rendering.density;
-        if (grip.index >= points.size()) {
-            return false;
-        }
-        const double least = grip.index > 0 ? points[grip.index - 1].value : -1e300;
-        const double largest = grip.index + 1 < points.size() ? points[grip.index + 1].value : 1e300;
-        const DensityPoint moved{std::clamp(value, least, largest), density};
-        const bool is_changed = moved.value != points[grip.index].value || moved.density != points[grip.index].density;
-        points[grip.index] = moved;
-        return is_changed;
+        return drag_point(rendering, grip.index, value, density);
     }
-    if (grip.index >= rendering.peaks.size()) {
+    if (grip.index >= part_of(rendering, "peaks").size()) {
         return false;
     }
-    ScenePeak peak = rendering.peaks[grip.index];
+    Json& before = rendering["peaks"][grip.index];
+    Json peak = before;
     if (grip.kind == Grip::Kind::top) {
-        peak.value = value;
-        peak.density = std::max(density, 1e-3 * plot.top);
+        peak["value"] = value;
+        peak["density"] = std::max(density, 1e-3 * plot.top);
     } else {
-        peak.width = 4 * std::max(value - peak.value, 0.0);
+        peak["width"] = 4 * std::max(value - peak["value"].get<double>(), 0.0);
     }
-    const ScenePeak& before = rendering.peaks[grip.index];
-    const bool is_changed = peak.value != before.value || peak.density != before.density || peak.width != before.width;
-    if (!is_changed || !is_peak(peak)) {
+    if (peak == before || !is_peak(peak)) {
         return false;
     }
-    rendering.peaks[grip.index] = peak;
+    before = std::move(peak);
     return true;
 }
 
 /** The density at the highest point. */
-double largest_density(const std::vector<DensityPoint>& base, const std::vector<ScenePeak>& peaks) {
+double largest_density(const DensityPoints& base, const Json& peaks) {
     double most = 0;
-    for (const DensityPoint& point : base) {
-        most = std::max(most, point.density);
+    for (const auto& point : base) {
+        most = std::max(most, point[1]);
     }
-    for (const ScenePeak& peak : peaks) {
-        most = std::max(most, peak.density);
+    for (const Json& peak : peaks) {
+        most = std::max(most, peak_of(peak).density);
     }
     return most;
 }
@@ -165,21 +164,20 @@ std::optional<std::size_t> nearest_grip(const Grips& grips, const ImVec2& mouse,
     return near;
 }
 
-void insert_point(std::vector<DensityPoint>& density, const DensityPoint& point) {
-    const auto behind =
-        std::find_if(density.begin(), density.end(), [&](const DensityPoint& other) { return other.value > point.value; });
-    density.insert(behind, point);
+void insert_point(Json& rendering, const std::array<double, 2>& point) {
+    DensityPoints density = own_density(rendering);
+    density.insert(std::ranges::find_if(density, [&](const auto& other) { return other[0] > point[0]; }), point);
+    rendering["density"] = density;
 }
 
 /** Takes a peak away, or a point but for the last. */
-bool remove_grip(SceneVolumeRendering& rendering, const Grip& grip) {
-    const auto at = static_cast<std::ptrdiff_t>(grip.index);
+bool remove_grip(Json& rendering, const Grip& grip) {
     if (grip.kind != Grip::Kind::point) {
-        rendering.peaks.erase(rendering.peaks.begin() + at);
+        remove_peak(rendering, grip.index);
         return true;
     }
-    if (rendering.density.size() > 1) {
-        rendering.density.erase(rendering.density.begin() + at);
+    if (rendering["density"].size() > 1) {
+        rendering["density"].erase(grip.index);
         return true;
     }
     return false;
@@ -198,16 +196,16 @@ void draw_grips(Ui& ui, ImDrawList* list, const Grips& grips, std::optional<std:
 
 } // namespace
 
-bool is_peak(const ScenePeak& peak) {
+bool is_peak(const Json& said_of_it) {
+    const Peak peak = peak_of(said_of_it);
     return peak.density > 0 && peak.value - 0.5 * peak.width < peak.value && peak.value < peak.value + 0.5 * peak.width;
 }
 
-bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array<double, 2>& range, bool is_logarithmic,
-                       double usual, const Histogram* histogram) {
-    const std::vector<DensityPoint> base = base_density(rendering, range, usual);
-    const double most = largest_density(base, rendering.peaks);
+bool edit_density_plot(Ui& ui, Json& rendering, const DensityPoints& base, const std::array<double, 2>& range,
+                       bool is_logarithmic, double usual, const Histogram* histogram) {
+    const double most = largest_density(base, part_of(rendering, "peaks"));
     Plot plot{ImGui::GetCursorScreenPos(), ImGui::GetContentRegionAvail().x, 6 * ImGui::GetFrameHeight(),
-              ColorScale(range, is_logarithmic),
+              ValueScale(range, is_logarithmic),
               // Room above the highest point, which otherwise could not be dragged upwards.
               most > 0 ? 1.25 * most : usual};
     ImGui::InvisibleButton("curve", ImVec2(plot.width, plot.height),
@@ -233,8 +231,8 @@ bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array
         storage->SetInt(held_id, static_cast<int>(*near));
     }
     bool is_changed = false;
-    if (is_hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !near && !rendering.density.empty()) {
-        insert_point(rendering.density, {plot.value(mouse), plot.density(mouse)});
+    if (is_hovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !near && rendering.contains("density")) {
+        insert_point(rendering, {plot.value(mouse), plot.density(mouse)});
         storage->SetInt(held_id, -1);
         is_changed = true;
     } else if (is_hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right) && near) {
@@ -253,7 +251,7 @@ bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array
     if (histogram != nullptr) {
         draw_histogram(list, plot, *histogram);
     }
-    draw_peaks(list, plot, rendering.peaks, 1.5f * ui.scale);
+    draw_peaks(list, plot, part_of(rendering, "peaks"), 1.5f * ui.scale);
     draw_density(list, plot, base, 2 * ui.scale);
     draw_grips(ui, list, grips, is_hovered ? near : std::nullopt);
     list->PopClipRect();

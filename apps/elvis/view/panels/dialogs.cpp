@@ -234,7 +234,7 @@ void prepare(Ui& ui, Dialog dialog) {
     state.is_new = true;
     start_in_folder(ui);
     const std::string& file = ui.model().file();
-    const std::string stem = fs::path(file.empty() ? ui.scene().volume : file).stem().string();
+    const std::string stem = fs::path(file.empty() ? part_of(ui.scene(), "volume").value("path", "") : file).stem().string();
     switch (dialog) {
     case Dialog::open:
         state.name.clear();
@@ -244,7 +244,7 @@ void prepare(Ui& ui, Dialog dialog) {
         break;
     case Dialog::save_picture:
         state.name = stem + ".png";
-        state.size = ui.scene().size;
+        state.size = size_of(ui.scene());
         break;
     case Dialog::convert:
         state.name = fs::path(ui.bench.foreign_file.value_or("")).replace_extension(".h5").string();

@@ -12,7 +12,7 @@ void add_menu(Ui& ui) {
         return;
     }
     // A value that isosurfaces surely meet, as soon as the range is known.
-    const std::optional<FieldRange> range = ui.bench.range(ui.scene().field);
+    const std::optional<FieldRange> range = ui.bench.range(said<std::string>(ui.scene(), "field"));
     const double middle = range ? round_middle({range->lower, range->upper}) : 0;
     for (const NewItemInfo& info : new_items()) {
         const bool is_possible =
@@ -36,15 +36,9 @@ void row(Ui& ui, const ItemId& item, std::size_t number) {
     bool shown = is_shown(ui.scene(), item);
     if (check(ui, name + "/shown", "##shown", shown, "Whether it is drawn")) {
         Scene scene = ui.scene();
-        const bool was_selected = model.selection() == item;
-        const ItemId now = set_shown(scene, item, shown);
-        model.edit((shown ? "show " : "hide ") + item_kind_name(scene, now), std::move(scene));
+        set_shown(scene, item, shown);
+        model.edit((shown ? "show " : "hide ") + item_kind_name(scene, item), std::move(scene));
         model.end_gesture();
-        if (was_selected) {
-            model.select(now);
-        }
-        ImGui::PopID();
-        return; // The list may have another order now.
     }
     ImGui::SameLine();
     if (ImGui::Selectable(item_label(ui.scene(), item).c_str(), model.selection() == item)) {
@@ -93,7 +87,7 @@ void draw_items(Ui& ui) {
         if (items.empty()) {
             ImGui::TextWrapped("Nothing is chosen: the boundary is shown.");
         }
-        for (std::size_t i = 0; i < items.size() && i < items_of(ui.scene()).size(); ++i) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
             row(ui, items[i], i);
         }
     }

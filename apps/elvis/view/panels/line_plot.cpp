@@ -1,6 +1,6 @@
 #include "line_plot.hpp"
 
-#include <core/bench/plot.hpp>
+#include <core/base/plot_ticks.hpp>
 
 #include <algorithm>
 #include <cmath>

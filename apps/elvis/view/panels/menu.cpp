@@ -69,15 +69,14 @@ void edit_menu(Ui& ui) {
 void view_menu(Ui& ui) {
     Model& model = ui.model();
     const bool has_volume = model.volume().has_value();
-    const PictureRoom room = room_for_volume(ui.scene());
     if (item(ui, "menu/fit", "Fit", "F", "Moves the camera until the whole volume is seen", has_volume)) {
-        model.set_camera(fitted(model.camera(), model.volume()->extent(), room));
+        model.set_camera(ui.bench.fitted(model.camera()));
     }
     for (std::size_t i = 0; i < standard_views().size(); ++i) {
         const StandardView& view = standard_views()[i];
         const std::string label = "From " + view.name;
         if (item(ui, "menu/from " + view.name, label.c_str(), std::to_string(i + 1).c_str(), "", has_volume)) {
-            model.set_camera(from_standard_view(model.camera(), view, model.volume()->extent(), room));
+            model.set_camera(ui.bench.fitted(from_standard_view(model.camera(), view)));
         }
     }
     ImGui::Separator();

@@ -8,6 +8,9 @@
 
 namespace elvis::view {
 
+/** Value and density. */
+using DensityPoints = std::vector<std::array<double, 2>>;
+
 void draw_menu(Ui& ui);
 /** List of items, and what can be done with them. */
 void draw_items(Ui& ui);
@@ -28,21 +31,29 @@ void draw_time(Ui& ui);
 /** Whichever is open. */
 void draw_dialogs(Ui& ui);
 
-/** Of parts of items; each returns whether something changed. `name` is for tests. */
-bool edit_color_map(Ui& ui, const std::string& name, SceneColorMap& map, const std::optional<std::string>& field);
-bool edit_contours(Ui& ui, const std::string& name, std::optional<SceneContours>& contours);
-bool edit_mesh_lines(Ui& ui, const std::string& name, std::optional<SceneLineStyle>& lines);
-bool edit_volume_rendering(Ui& ui, SceneVolumeRendering& rendering);
-/** Density and peaks over the histogram, which may be null. `range`: of the colours. `usual`: a density that shows something.
- */
-bool edit_density_plot(Ui& ui, SceneVolumeRendering& rendering, const std::array<double, 2>& range, bool is_logarithmic,
-                       double usual, const Histogram* histogram);
+/** Of parts of the scene; each returns whether something changed. `name` is for tests. */
+/** Of the colours: the map's own, or else the field's. */
+std::array<double, 2> range_of(const Json& map, const std::optional<FieldRange>& data);
+/** The "color_map" of a part. */
+bool edit_color_map(Ui& ui, const std::string& name, Json& owner, const std::optional<std::string>& field);
+bool edit_contours(Ui& ui, const std::string& name, Json& owner);
+bool edit_mesh_lines(Ui& ui, const std::string& name, Json& owner);
+bool edit_volume_rendering(Ui& ui, Json& rendering);
+/** Density and peaks over the histogram, which may be null. `base`: the density without peaks; `range`: of the colours;
+ * `usual`: a density that shows something. */
+bool edit_density_plot(Ui& ui, Json& rendering, const DensityPoints& base, const std::array<double, 2>& range,
+                       bool is_logarithmic, double usual, const Histogram* histogram);
 /** As the reader of scenes asks for: its width is not lost in rounding. */
-bool is_peak(const ScenePeak& peak);
-bool edit_geometry(Ui& ui, SceneSurface& surface);
-bool edit_streamlines(Ui& ui, SceneStreamlines& lines);
-bool edit_light(Ui& ui, Light& light);
-bool edit_warp(Ui& ui, std::optional<SceneWarp>& warp);
+bool is_peak(const Json& peak);
+void remove_peak(Json& rendering, std::size_t index);
+bool edit_geometry(Ui& ui, Json& surface);
+bool edit_boundary(Ui& ui, Json& surface);
+bool edit_elements(Ui& ui, Json& surface);
+bool edit_wireframe(Ui& ui, Json& frame);
+/** Streamlines and pathlines. */
+bool edit_streamlines(Ui& ui, Json& lines);
+bool edit_light(Ui& ui, Json& light);
+bool edit_warp(Ui& ui, Json& scene);
 
 /** Keys and what they do, for people. */
 const std::vector<std::pair<const char*, const char*>>& shortcut_texts();

@@ -4,56 +4,57 @@ namespace elvis::view {
 
 namespace {
 
+constexpr double usual_text_size = 0.026;
+constexpr int usual_subdivisions = 5;
+
 bool edit_lighting(Ui& ui, Scene& scene) {
-    bool is_lit = scene.lighting.has_value();
-    bool is_changed = check(ui, "scene/light", "Light", is_lit, "Else colours are exactly those of the colour map");
-    if (is_changed) {
-        scene.lighting = is_lit ? std::optional(Lighting{}) : std::nullopt;
-        scene.hidden_lights.clear();
-    }
-    if (!scene.lighting) {
+    bool is_changed = optional_part(ui, "scene/light", "Light", scene, "lighting", Json::object(),
+                                    "Else colours are exactly those of the colour map");
+    if (!scene.contains("lighting")) {
         return is_changed;
     }
     ImGui::Indent();
-    Lighting& lighting = *scene.lighting;
-    is_changed = color(ui, "scene/ambient", "Ambient", lighting.ambient, "Light from everywhere") || is_changed;
+    Json& lighting = scene["lighting"];
+    is_changed =
+        color(ui, "scene/ambient", "Ambient", lighting, "ambient", {0.3, 0.3, 0.3}, "Light from everywhere") || is_changed;
     ImGui::SameLine();
-    is_changed = color(ui, "scene/headlight", "Headlight", lighting.headlight, "Light from the eye") || is_changed;
-    is_changed = slider(ui, "scene/specular", "Highlights", lighting.specular, 0, 1, "Strength of highlights") || is_changed;
-    if (lighting.specular > 0) {
-        is_changed =
-            slider(ui, "scene/exponent", "Sharpness", lighting.exponent, 1, 200, "The larger, the smaller are highlights") ||
-            is_changed;
+    is_changed =
+        color(ui, "scene/headlight", "Headlight", lighting, "headlight", {0.7, 0.7, 0.7}, "Light from the eye") || is_changed;
+    is_changed =
+        slider(ui, "scene/specular", "Highlights", lighting, "specular", 0, 0, 1, "Strength of highlights") || is_changed;
+    if (lighting.value("specular", 0.0) > 0) {
+        is_changed = slider(ui, "scene/exponent", "Sharpness", lighting, "exponent", 30, 1, 200,
+                            "The larger, the smaller are highlights") ||
+                     is_changed;
     }
     ImGui::Unindent();
     return is_changed;
 }
 
 bool edit_annotation(Ui& ui, Scene& scene) {
-    bool has = scene.annotation.has_value();
-    bool is_changed = check(ui, "scene/annotation", "Annotation", has, "Colour bars, axes and a title on the picture");
-    if (is_changed) {
-        scene.annotation = has ? std::optional(SceneAnnotation{}) : std::nullopt;
-    }
-    if (!scene.annotation) {
+    bool is_changed = optional_part(ui, "scene/annotation", "Annotation", scene["image"], "annotation", Json::object(),
+                                    "Colour bars, axes and a title on the picture");
+    if (!scene["image"].contains("annotation")) {
         return is_changed;
     }
     ImGui::Indent();
-    SceneAnnotation& annotation = *scene.annotation;
-    bool has_own_title = annotation.title.has_value();
-    if (check(ui, "scene/own title", "Own title", has_own_title, "Else the name of the volume; an empty one for none")) {
-        annotation.title = has_own_title ? std::optional(std::string()) : std::nullopt;
+    Json& annotation = scene["image"]["annotation"];
+    is_changed = optional_part(ui, "scene/own title", "Own title", annotation, "title", "",
+                               "Else the name of the volume; an empty one for none") ||
+                 is_changed;
+    if (auto title = said<std::string>(annotation, "title")) {
+        is_changed = text(ui, "scene/title", "Title", *title, "Written at the top; nothing if empty", "none") || is_changed;
+        annotation["title"] = *title;
+    }
+    is_changed = check(ui, "scene/bars", "Colour bars", annotation, "color_bars", true, "What the colours mean") || is_changed;
+    ImGui::SameLine();
+    bool is_left = annotation.value("bar_side", "right") == "left";
+    if (check(ui, "scene/left", "at the left", is_left, "Else at the right")) {
+        annotation["bar_side"] = is_left ? "left" : "right";
         is_changed = true;
     }
-    if (annotation.title) {
-        is_changed =
-            text(ui, "scene/title", "Title", *annotation.title, "Written at the top; nothing if empty", "none") || is_changed;
-    }
-    is_changed = check(ui, "scene/bars", "Colour bars", annotation.has_color_bars, "What the colours mean") || is_changed;
-    ImGui::SameLine();
-    is_changed = check(ui, "scene/left", "at the left", annotation.style.bars_at_left, "Else at the right") || is_changed;
-    is_changed = check(ui, "scene/axes", "Axes", annotation.has_axes, "Directions of x, y and z") || is_changed;
-    is_changed = slider(ui, "scene/text size", "Text size", annotation.style.text_size, 0.01, 0.1,
+    is_changed = check(ui, "scene/axes", "Axes", annotation, "axes", true, "Directions of x, y and z") || is_changed;
+    is_changed = slider(ui, "scene/text size", "Text size", annotation, "text_size", usual_text_size, 0.01, 0.1,
                         "As part of the picture's shorter side") ||
                  is_changed;
     ImGui::Unindent();
@@ -61,27 +62,20 @@ bool edit_annotation(Ui& ui, Scene& scene) {
 }
 
 bool edit_image(Ui& ui, Scene& scene) {
-    Rgb background = {scene.background[0], scene.background[1], scene.background[2]};
-    bool is_changed = color(ui, "scene/background", "Background", background, "Colour where nothing is");
+    auto background = scene["image"].value("background", std::array<double, 4>{1, 1, 1, 1});
+    Rgb rgb = {background[0], background[1], background[2]};
+    bool is_changed = color(ui, "scene/background", "Background", rgb, "Colour where nothing is");
     if (is_changed) {
-        std::copy(background.begin(), background.end(), scene.background.begin());
+        std::copy(rgb.begin(), rgb.end(), background.begin());
+        scene["image"]["background"] = background;
     }
-    static const std::vector<std::string> words = {name_of(Precision::float32), name_of(Precision::float64)};
-    auto precision = static_cast<std::size_t>(scene.precision.value_or(Precision::float32));
-    if (choice(ui, "scene/precision", "Precision", precision, words,
-               "float64 is slower, and within 1e-9 of exact arithmetic instead of 0.001")) {
-        scene.precision = static_cast<Precision>(precision);
-        is_changed = true;
-    }
-    int subdivisions = static_cast<int>(scene.subdivisions);
-    if (ImGui::SliderInt("Line refinement", &subdivisions, 0, 12, "%d", ImGuiSliderFlags_AlwaysClamp)) {
-        scene.subdivisions = static_cast<std::uint32_t>(subdivisions);
-        is_changed = true;
-    }
-    explain(ui, "scene/subdivisions",
-            "Contours and mesh lines: how often a pixel is halved at most to decide whether it meets one; more leave fewer "
-            "undecided");
-    return is_changed;
+    is_changed = choice(ui, "scene/precision", "Precision", scene, "precision", {"float32", "float64"},
+                        "float64 is slower, and within 1e-9 of exact arithmetic instead of 0.001") ||
+                 is_changed;
+    return whole_slider(ui, "scene/subdivisions", "Line refinement", scene, "subdivisions", usual_subdivisions, 0, 12,
+                        "Contours and mesh lines: how often a pixel is halved at most to decide whether it meets one; more "
+                        "leave fewer undecided") ||
+           is_changed;
 }
 
 } // namespace
@@ -100,16 +94,16 @@ void draw_scene_editor(Ui& ui) {
             }
         };
         did("field",
-            field_choice(ui, "scene/field", "Field", scene.field, false,
+            field_choice(ui, "scene/field", "Field", scene, "field", false,
                          "What is shown: a field, or any expression over fields such as norm(grad(p)) / (1 + u[0]^2)"));
-        did("colours", edit_color_map(ui, "scene/colors", scene.color_map, scene.field));
+        did("colours", edit_color_map(ui, "scene/colors", scene, said<std::string>(scene, "field")));
         ImGui::Separator();
-        did("contours", edit_contours(ui, "scene/contours", scene.contours));
-        did("mesh lines", edit_mesh_lines(ui, "scene/mesh lines", scene.mesh_lines));
+        did("contours", edit_contours(ui, "scene/contours", scene));
+        did("mesh lines", edit_mesh_lines(ui, "scene/mesh lines", scene));
         ImGui::Separator();
         did("light", edit_lighting(ui, scene));
         ImGui::Separator();
-        did("displacement", edit_warp(ui, scene.warp));
+        did("displacement", edit_warp(ui, scene));
         ImGui::Separator();
         did("annotation", edit_annotation(ui, scene));
         ImGui::Separator();

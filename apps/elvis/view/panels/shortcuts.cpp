@@ -34,25 +34,22 @@ void handle_with_control(Ui& ui, const KeyPress& key) {
 void handle_alone(Ui& ui, const KeyPress& key) {
     Model& model = ui.model();
     const auto is = [&key](char letter) { return key.letter == letter; };
-    const VolumeExtent extent = model.volume()->extent();
-    const PictureRoom room = room_for_volume(ui.scene());
     for (std::size_t i = 0; i < standard_views().size(); ++i) {
         if (is(static_cast<char>('1' + i))) {
-            model.set_camera(from_standard_view(model.camera(), standard_views()[i], extent, room));
+            model.set_camera(ui.bench.fitted(from_standard_view(model.camera(), standard_views()[i])));
         }
     }
     if (is('F')) {
-        model.set_camera(fitted(model.camera(), extent, room));
+        model.set_camera(ui.bench.fitted(model.camera()));
     } else if (is('O')) {
         model.set_camera(with_projection(model.camera(), !model.camera().orthographic));
     } else if (is('H')) {
         if (const std::optional<ItemId> item = model.selection()) {
             Scene scene = ui.scene();
             const bool shown = !is_shown(scene, *item);
-            const ItemId now = set_shown(scene, *item, shown);
-            model.edit((shown ? "show " : "hide ") + item_kind_name(scene, now), std::move(scene));
+            set_shown(scene, *item, shown);
+            model.edit((shown ? "show " : "hide ") + item_kind_name(scene, *item), std::move(scene));
             model.end_gesture();
-            model.select(now);
         }
     } else if (key.is_delete) {
         if (const std::optional<ItemId> item = model.selection()) {

@@ -16,21 +16,25 @@ void saved_views(Ui& ui) {
     ImGui::SameLine();
     if (small_button(ui, "camera/keep", "Keep this one", "Remembers the camera in the scene, under a name")) {
         Scene scene = ui.scene();
-        scene.views.push_back({"view " + std::to_string(scene.views.size() + 1), scene.camera});
+        scene["views"].push_back(
+            {{"name", "view " + std::to_string(part_of(scene, "views").size() + 1)}, {"camera", scene["camera"]}});
         model.edit("keep view", std::move(scene));
         model.end_gesture();
     }
     Scene scene = ui.scene();
     bool is_changed = false;
     std::optional<std::size_t> removed;
-    for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    for (std::size_t i = 0; i < part_of(ui.scene(), "views").size(); ++i) {
+        Json& view = scene["views"][i];
         ImGui::PushID(static_cast<int>(i));
         const std::string name = "camera/view" + std::to_string(i);
         if (small_button(ui, name + "/go", "Go", "Moves the camera there")) {
-            model.set_camera(camera_of(scene.views[i].camera));
+            model.set_camera(camera_of(view["camera"]));
         }
         ImGui::SameLine();
-        is_changed = text(ui, name, "##name", scene.views[i].name, "Its name") || is_changed;
+        auto words = view["name"].get<std::string>();
+        is_changed = text(ui, name, "##name", words, "Its name") || is_changed;
+        view["name"] = words;
         ImGui::SameLine();
         if (small_button(ui, name + "/remove", "-", "Forgets this view")) {
             removed = i;
@@ -38,7 +42,7 @@ void saved_views(Ui& ui) {
         ImGui::PopID();
     }
     if (removed) {
-        scene.views.erase(scene.views.begin() + static_cast<std::ptrdiff_t>(*removed));
+        scene["views"].erase(*removed);
     }
     if (removed || is_changed) {
         model.edit(removed ? "remove view" : "name view", std::move(scene));
@@ -54,20 +58,18 @@ void draw_camera(Ui& ui) {
     }
     const Camera before = model.camera();
     Camera camera = before;
-    const VolumeExtent whole = model.volume()->extent();
-    const PictureRoom room = room_for_volume(ui.scene());
     const double extent = model.volume()->diagonal();
     bool is_changed = false;
     for (const StandardView& view : standard_views()) {
         if (button(ui, "camera/" + view.name, view.name.c_str(), "Looks at the whole volume from there")) {
-            camera = from_standard_view(camera, view, whole, room);
+            camera = ui.bench.fitted(from_standard_view(camera, view));
             is_changed = true;
         }
         ImGui::SameLine();
     }
     ImGui::NewLine();
     if (button(ui, "camera/fit", "Fit", "Moves the camera until the whole volume is seen (F)")) {
-        camera = fitted(camera, whole, room);
+        camera = ui.bench.fitted(camera);
         is_changed = true;
     }
     ImGui::SameLine();

@@ -30,8 +30,8 @@ void draw_status(Ui& ui) {
     explain(ui, "status", text.c_str());
     char right[120] = "";
     if (bench.picture().width > 0) {
-        std::snprintf(right, sizeof right, "%u x %u   %.0f ms", ui.scene().size[0], ui.scene().size[1],
-                      bench.picture().milliseconds);
+        const auto [width, height] = size_of(ui.scene());
+        std::snprintf(right, sizeof right, "%u x %u   %.0f ms", width, height, bench.picture().milliseconds);
     }
     const float width = ImGui::CalcTextSize(right).x;
     ImGui::SameLine(ImGui::GetWindowWidth() - width - ImGui::GetStyle().WindowPadding.x);
@@ -41,11 +41,11 @@ void draw_status(Ui& ui) {
 
 void draw_time(Ui& ui) {
     const std::vector<double>& times = ui.model().volume()->times;
-    int step = static_cast<int>(ui.scene().time_step);
+    int step = static_cast<int>(time_step_of(ui.scene()));
     const int last = static_cast<int>(times.size()) - 1;
     const auto go_to = [&](int to) {
         Scene scene = ui.scene();
-        scene.time_step = static_cast<std::uint32_t>(to);
+        scene["volume"]["time_step"] = to;
         ui.model().edit("time step", std::move(scene));
     };
     if (button(ui, "time/play", ui.is_playing ? "Stop" : "Play", "Shows one time step after the other")) {

@@ -1,139 +1,132 @@
 #include "panels.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <core/base/bounds.hpp>
 
 namespace elvis::view {
 
 namespace {
 
-bool edit_seeds(Ui& ui, SceneStreamlines& lines) {
+bool edit_seeds(Ui& ui, Json& lines) {
     const VolumeFacts& volume = *ui.model().volume();
     const double extent = volume.diagonal();
-    bool is_changed = false;
-    bool has_grid = lines.seeds.empty();
+    bool has_grid = !lines.contains("seeds");
     if (check(ui, "streamlines/grid", "Seeds on a grid", has_grid, "Over the volume's bounds; else seeds are single points")) {
-        lines.seeds.clear();
+        lines.erase(has_grid ? "seeds" : "seed_grid");
         if (!has_grid) {
-            const auto& b = volume.bounds;
-            lines.seeds.push_back({0.5 * (b[0] + b[3]), 0.5 * (b[1] + b[4]), 0.5 * (b[2] + b[5])});
+            lines["seeds"] = {middle_of(volume.bounds)};
         }
-        is_changed = true;
+        return true;
     }
-    if (lines.seeds.empty()) {
-        int count = static_cast<int>(lines.seed_grid);
-        if (ImGui::SliderInt("Seeds", &count, 1, 30, "%d", ImGuiSliderFlags_AlwaysClamp) &&
-            count != static_cast<int>(lines.seed_grid)) {
-            lines.seed_grid = static_cast<std::uint32_t>(count);
-            is_changed = true;
-        }
-        explain(ui, "streamlines/count", "Along the longest side of the bounds");
-        return is_changed;
+    if (has_grid) {
+        return whole_slider(ui, "streamlines/count", "Seeds", lines, "seed_grid", 5, 1, 30,
+                            "Along the longest side of the bounds");
     }
+    auto seeds = lines["seeds"].get<std::vector<Vector3>>();
+    bool is_changed = false;
     std::optional<std::size_t> removed;
     // Longer lists come from scene files.
     constexpr std::size_t most_shown = 50;
-    for (std::size_t i = 0; i < lines.seeds.size() && i < most_shown; ++i) {
+    for (std::size_t i = 0; i < seeds.size() && i < most_shown; ++i) {
         ImGui::PushID(static_cast<int>(i));
         const std::string name = "streamlines/seed" + std::to_string(i);
-        is_changed = vector(ui, name, "##seed", lines.seeds[i], extent, "A point that a line goes through") || is_changed;
+        is_changed = vector(ui, name, "##seed", seeds[i], extent, "A point that a line goes through") || is_changed;
         ImGui::SameLine();
-        if (small_button(ui, name + "/remove", "-", "Takes this seed away") && lines.seeds.size() > 1) {
+        if (small_button(ui, name + "/remove", "-", "Takes this seed away") && seeds.size() > 1) {
             removed = i;
         }
         ImGui::PopID();
     }
     if (removed) {
-        lines.seeds.erase(lines.seeds.begin() + static_cast<std::ptrdiff_t>(*removed));
+        seeds.erase(seeds.begin() + static_cast<std::ptrdiff_t>(*removed));
         is_changed = true;
     }
     if (small_button(ui, "streamlines/add", "Add seed", "Near the last one; drag it in the picture")) {
-        Vector3 next = lines.seeds.back();
+        Vector3 next = seeds.back();
         next[1] += 0.05 * extent;
-        lines.seeds.push_back(next);
+        seeds.push_back(next);
         is_changed = true;
     }
     const std::optional<Picked>& picked = ui.bench.picked();
     if (picked && picked->is_hit) {
         ImGui::SameLine();
         if (small_button(ui, "streamlines/add point", "Add point", "A seed at the point that was clicked on")) {
-            lines.seeds.push_back(picked->position);
+            seeds.push_back(picked->position);
             is_changed = true;
         }
+    }
+    if (is_changed) {
+        lines["seeds"] = seeds;
     }
     return is_changed;
 }
 
 /** A length that may be left to the program. */
-bool edit_optional(Ui& ui, const std::string& name, const char* label, std::optional<double>& value, double start,
+bool edit_optional(Ui& ui, const std::string& name, const char* label, Json& lines, const char* key, double start,
                    double extent, const char* help) {
-    bool has = value.has_value();
     ImGui::PushID(name.c_str());
-    bool is_changed = check(ui, name, label, has, help);
-    if (is_changed) {
-        value = has ? std::optional(start) : std::nullopt;
-    }
-    if (value) {
+    bool is_changed = optional_part(ui, name, label, lines, key, start, help);
+    if (lines.contains(key)) {
         ImGui::SameLine();
         ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
-        is_changed = positive_number(ui, name + "/value", "##value", *value, extent, help) || is_changed;
+        is_changed = positive_number(ui, name + "/value", "##value", lines, key, extent, help) || is_changed;
     }
     ImGui::PopID();
     return is_changed;
 }
 
 /** Whether lines are those of one time step, or follow points through time. */
-bool edit_times(Ui& ui, SceneStreamlines& lines) {
+bool edit_times(Ui& ui, Json& lines) {
     const std::vector<double>& times = ui.model().volume()->times;
-    if (times.size() < 2 && !lines.times) {
+    bool has_times = lines["type"] == "pathlines";
+    if (times.size() < 2 && !has_times) {
         return false;
     }
-    bool has_times = lines.times.has_value();
     bool is_changed =
         check(ui, "streamlines/pathlines", "Pathlines", has_times,
               "The ways of points that move with the field through all time steps; else the lines of this time step");
     if (is_changed) {
-        lines.times = has_times ? std::optional(ScenePathTimes{}) : std::nullopt;
-        lines.direction = has_times ? SceneStreamlines::Direction::forward : SceneStreamlines::Direction::both;
+        lines["type"] = has_times ? "pathlines" : "streamlines";
+        lines["direction"] = has_times ? "forward" : "both";
+        for (const char* const key : {"start_time", "end_time", "interpolation"}) {
+            lines.erase(key);
+        }
     }
-    if (!lines.times || times.size() < 2) {
+    if (!has_times || times.size() < 2) {
         return is_changed;
     }
-    double start =
-        lines.times->start.value_or(lines.direction == SceneStreamlines::Direction::backward ? times.back() : times.front());
-    if (slider(ui, "streamlines/start", "Start", start, times.front(), times.back(), "When points are at their seeds")) {
-        lines.times->start = start;
+    const bool goes_back = lines["direction"] == "backward";
+    is_changed = slider(ui, "streamlines/start", "Start", lines, "start_time", goes_back ? times.back() : times.front(),
+                        times.front(), times.back(), "When points are at their seeds") ||
+                 is_changed;
+    bool is_linear = lines.value("interpolation", "") == "linear";
+    if (check(ui, "streamlines/linear", "Linear in time", is_linear, "Between time steps; else cubic")) {
+        lines["interpolation"] = is_linear ? "linear" : "cubic";
         is_changed = true;
     }
-    return check(ui, "streamlines/linear", "Linear in time", lines.times->is_linear, "Between time steps; else cubic") ||
-           is_changed;
+    return is_changed;
 }
 
 } // namespace
 
-bool edit_streamlines(Ui& ui, SceneStreamlines& lines) {
+bool edit_streamlines(Ui& ui, Json& lines) {
     const double diagonal = ui.model().volume()->diagonal();
-    bool is_changed = offered_text(ui, "streamlines/flow", "Flow", lines.flow, flows_of(*ui.model().volume()),
+    bool is_changed = offered_text(ui, "streamlines/flow", "Flow", lines, "flow", flows_of(*ui.model().volume()),
                                    "The vector field or expression that the lines follow");
     is_changed = edit_seeds(ui, lines) || is_changed;
     is_changed = edit_times(ui, lines) || is_changed;
-    static const std::vector<std::string> words = {"both", "forward", "backward"};
-    auto direction = static_cast<std::size_t>(lines.direction);
-    if (choice(ui, "streamlines/direction", "Direction", direction, words,
+    if (choice(ui, "streamlines/direction", "Direction", lines, "direction", {"both", "forward", "backward"},
                "From the seeds: with the flow, against it, or both")) {
-        lines.direction = static_cast<SceneStreamlines::Direction>(direction);
-        if (lines.times && lines.direction == SceneStreamlines::Direction::both) {
-            lines.times->end.reset();
+        if (lines["direction"] == "both") {
+            lines.erase("end_time");
         }
         is_changed = true;
     }
-    is_changed = edit_optional(ui, "streamlines/radius", "Radius", lines.radius, 0.004 * diagonal, diagonal / 20,
+    is_changed = edit_optional(ui, "streamlines/radius", "Radius", lines, "radius", 0.004 * diagonal, diagonal / 20,
                                "Of the tubes; else a small part of the volume's diagonal") ||
                  is_changed;
-    is_changed = edit_optional(ui, "streamlines/length", "Length", lines.length, diagonal, diagonal,
-                               "Of each line, in each direction; else ten times the volume's diagonal") ||
-                 is_changed;
-    return is_changed;
+    return edit_optional(ui, "streamlines/length", "Length", lines, "length", diagonal, diagonal,
+                         "Of each line, in each direction; else ten times the volume's diagonal") ||
+           is_changed;
 }
 
 } // namespace elvis::view

@@ -274,7 +274,7 @@ private:
 
     void set_title() {
         const Model& model = m_bench.model();
-        const std::string path = !model.file().empty() ? model.file() : model.scene().volume;
+        const std::string path = !model.file().empty() ? model.file() : part_of(model.scene(), "volume").value("path", "");
         const std::string name = std::filesystem::path(path).filename().string();
         const std::string title = name.empty() ? "ElVis" : name + " - ElVis";
         if (title != m_title) {

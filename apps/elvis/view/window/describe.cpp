@@ -1,7 +1,6 @@
 #include "describe.hpp"
 
 #include <core/base/memory.hpp>
-#include <core/scene/write/write_scene.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -56,7 +55,7 @@ std::string description(Ui& ui) {
     json["rest_to_exact_seconds"] = bench.motion().rest_to_exact_seconds.value_or(-1);
     json["cancel_milliseconds"] = bench.cancel_times();
     json["volume"] = model.volume() ? model.volume()->path : std::string();
-    json["scene"] = scene_json(model.scene(), "scene.json");
+    json["scene"] = model.scene();
     json["undo"] = model.undo_name().value_or("");
     json["redo"] = model.redo_name().value_or("");
     json["items"] = nlohmann::ordered_json::array();

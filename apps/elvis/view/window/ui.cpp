@@ -128,22 +128,6 @@ bool color(Ui& ui, const std::string& name, const char* label, std::array<double
     return is_changed;
 }
 
-bool optional_color(Ui& ui, const std::string& name, const char* label, std::optional<std::array<double, 3>>& rgb,
-                    const std::array<double, 3>& start, const char* help) {
-    bool has_color = rgb.has_value();
-    ImGui::PushID(name.c_str());
-    bool is_changed = check(ui, name, label, has_color, help);
-    if (is_changed) {
-        rgb = has_color ? std::optional(start) : std::nullopt;
-    }
-    if (rgb) {
-        ImGui::SameLine();
-        is_changed = color(ui, name + ".color", "##color", *rgb, help) || is_changed;
-    }
-    ImGui::PopID();
-    return is_changed;
-}
-
 bool text(Ui& ui, const std::string& name, const char* label, std::string& value, const char* help, const char* hint) {
     const ImGuiID id = ImGui::GetID(label);
     const int frame = ImGui::GetFrameCount();
@@ -265,18 +249,18 @@ bool offered_text(Ui& ui, const std::string& name, const char* label, std::strin
 bool field_choice(Ui& ui, const std::string& name, const char* label, std::optional<std::string>& field, bool may_be_scenes,
                   const char* help) {
     const std::string of_scene = "(the scene's)";
-    const std::vector<FieldInfo>& fields = ui.model().volume()->fields;
+    const std::vector<FieldFacts>& fields = ui.model().volume()->fields;
     std::vector<std::string> offers;
     if (may_be_scenes) {
         offers.push_back(of_scene);
     }
-    for (const FieldInfo& info : fields) {
+    for (const FieldFacts& info : fields) {
         offers.push_back(info.name);
         for (std::uint32_t c = 0; info.n_components > 1 && c < info.n_components; ++c) {
             offers.push_back(component_name(info.name, c));
         }
     }
-    for (const FieldInfo& info : fields) {
+    for (const FieldFacts& info : fields) {
         if (info.n_components == 3) {
             offers.push_back("norm(curl(" + info.name + "))");
             offers.push_back("q_criterion(" + info.name + ")");

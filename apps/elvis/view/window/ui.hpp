@@ -86,9 +86,6 @@ bool positive_number(Ui& ui, const std::string& name, const char* label, double&
 bool slider(Ui& ui, const std::string& name, const char* label, double& value, double lower, double upper, const char* help);
 bool vector(Ui& ui, const std::string& name, const char* label, std::array<double, 3>& value, double extent, const char* help);
 bool color(Ui& ui, const std::string& name, const char* label, std::array<double, 3>& rgb, const char* help);
-/** A colour that may be left to the program. */
-bool optional_color(Ui& ui, const std::string& name, const char* label, std::optional<std::array<double, 3>>& rgb,
-                    const std::array<double, 3>& start, const char* help);
 /** Changes the value when editing ends, so that no half-written expression is drawn. */
 bool text(Ui& ui, const std::string& name, const char* label, std::string& value, const char* help, const char* hint = "");
 /** Near the middle of a range, with few digits: where to start from. */
@@ -104,5 +101,35 @@ bool offered_text(Ui& ui, const std::string& name, const char* label, std::strin
 /** A field of the volume, or an expression; with `may_be_scenes` also "as the scene". */
 bool field_choice(Ui& ui, const std::string& name, const char* label, std::optional<std::string>& field, bool may_be_scenes,
                   const char* help);
+
+/** The same for what stands under a key of a part of the scene; `usual` is what it means if nothing does. */
+bool check(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, bool usual, const char* help);
+bool number(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double usual, double extent,
+            const char* help);
+bool positive_number(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double extent,
+                     const char* help);
+bool slider(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double usual, double lower,
+            double upper, const char* help);
+bool whole_slider(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, int usual, int lower,
+                  int upper, const char* help);
+bool vector(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double extent, const char* help);
+bool color(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, const Rgb& usual, const char* help);
+/** A colour that may be left to the program. */
+bool optional_color(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, const Rgb& start,
+                    const char* help);
+/** Empty, it says nothing. */
+bool text(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, const char* help,
+          const char* hint = "");
+bool number_list(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, const char* help);
+/** The first word is the usual one. */
+bool choice(Ui& ui, const std::string& name, const char* label, Json& part, const char* key,
+            const std::vector<std::string>& words, const char* help);
+bool offered_text(Ui& ui, const std::string& name, const char* label, Json& part, const char* key,
+                  const std::vector<std::string>& offers, const char* help);
+bool field_choice(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, bool may_be_scenes,
+                  const char* help);
+/** What may be left out: a mark by which it begins as `start`. Returns whether it came or went. */
+bool optional_part(Ui& ui, const std::string& name, const char* label, Json& whole, const char* key, const Json& start,
+                   const char* help);
 
 } // namespace elvis::view

@@ -75,9 +75,7 @@ void ViewArea::drag_handle(Ui& ui, const PicturePoint& place) {
     if (*m_handle >= n_of_item) {
         ui.bench.line = with_moved_end(*ui.bench.line, *model.volume(), *m_handle - n_of_item, position);
     } else if (item) {
-        Scene scene = with_moved_handle(m_before, *item, *model.volume(), *m_handle, position);
-        scene.camera = model.scene().camera;
-        scene.size = model.scene().size;
+        Scene scene = model.as_seen(with_moved_handle(m_before, *item, *model.volume(), *m_handle, position));
         model.edit("move " + item_kind_name(scene, *item), std::move(scene));
     }
 }

@@ -1,8 +1,8 @@
 #include "window.hpp"
 #include "glfw_library.hpp"
 
-#include <core/annotation/font.hpp>
 #include <core/base/error.hpp>
+#include <core/base/font_paths.hpp>
 #include <core/vulkan/vulkan_library.hpp>
 
 #define GLFW_INCLUDE_NONE

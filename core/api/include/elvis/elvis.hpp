@@ -13,6 +13,7 @@
 #define ELVIS_ELVIS_HPP
 
 #include "answers.h"
+#include "editing.h"
 #include "elvis.h"
 
 #include <array>
@@ -134,6 +135,27 @@ public:
     /** The volume that it names. */
     inline data open_volume(const task& watch = {}) const;
     void write(const std::string& path) const { check(elvis_scene_write(get(), path.c_str())); }
+    /** See elvis_scene_write_text. `folder`: empty for the working directory. */
+    std::string text(const std::string& folder = {}) const {
+        char* written = nullptr;
+        check(elvis_scene_write_text(get(), detail::or_null(folder), &written));
+        return detail::taken(written);
+    }
+    /** See elvis_scene_complete_camera and elvis_scene_fit_camera. */
+    void complete_camera(const elvis_extent& extent) { check(elvis_scene_complete_camera(get(), &extent)); }
+    void fit_camera(const elvis_extent& extent) { check(elvis_scene_fit_camera(get(), &extent)); }
+    /** See elvis_scene_write_expression. */
+    std::string expression(const std::string& field) const {
+        char* written = nullptr;
+        check(elvis_scene_write_expression(get(), field.c_str(), &written));
+        return detail::taken(written);
+    }
+    /** JSON: see elvis_scene_get_transfer. */
+    std::string transfer(const std::array<double, 2>& range, double diagonal) const {
+        char* written = nullptr;
+        check(elvis_scene_get_transfer(get(), range.data(), diagonal, &written));
+        return detail::taken(written);
+    }
     elvis_scene* get() const { return m_handle.get(); }
 
 private:

@@ -4,14 +4,12 @@
  */
 #pragma once
 
-#include <core/render/frame.hpp>
-
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
 
-namespace elvis {
+namespace elvis::view {
 
 /** What is on the screen. */
 enum class FrameStage {
@@ -25,18 +23,11 @@ enum class FrameStage {
     exact
 };
 
-/** The request as a stage draws it, `divisor` pixels across and down in one; contours and mesh lines may be left out while
- * things move. */
-FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uint32_t divisor, bool with_lines = true);
-
-/** Whether `full` leaves anything to `exact`: surfaces without lines are pixel-exact as soon as every pixel is drawn. */
-bool has_refinement(const FrameRequest& request);
-
 /**
  * Decides from measured times. Calls come from one thread, with the time they happen; nothing is drawn here:
  *
  *     touch() whenever the camera or anything else changes; release() when the hand lets go, if that is known
- *     step = next(); if there is one: draw request_for(request, step.stage, step.divisor, step.with_lines); then drawn()
+ *     step = next(); if there is one: draw its stage; then drawn()
  *     while it is drawn: if is_outdated(step), cancel it and take the next one
  *
  * Without release() things have come to rest when nothing changes for `rest`. Where all pixels would take longer than a moving
@@ -71,8 +62,8 @@ public:
     /** Whether the step is no longer worth its time: another one is wanted, which a pixel-exact picture must not delay. */
     bool is_outdated(const Step& step, Time now) const;
     /**
-     * It is on the screen; `milliseconds` without compilation and upload, as Frame::render_milliseconds. `is_refinable`:
-     * has_refinement() of what was asked for; if not, `full` is exact.
+     * It is on the screen; `milliseconds` without compilation and upload, as elvis_picture_info.render_milliseconds.
+     * `is_refinable`: elvis_picture_info.is_refinable of what was drawn; if not, `full` is exact.
      */
     void drawn(const Step& step, bool is_refinable, double milliseconds);
 
@@ -107,4 +98,4 @@ private:
     double m_full_with_lines = 0;
 };
 
-} // namespace elvis
+} // namespace elvis::view

@@ -1,26 +1,13 @@
 // Which picture comes next, with a clock and a device that are made up.
-#include <core/render/frame_schedule.hpp>
+#include <apps/elvis/view/model/frame_schedule.hpp>
 
 #include <catch2/catch.hpp>
 
-using namespace elvis;
+using namespace elvis::view;
 
 namespace {
 
 using Stage = FrameStage;
-
-FrameRequest request_of(bool has_lines) {
-    FrameRequest request;
-    request.width = 1280;
-    request.height = 720;
-    Surface surface;
-    surface.geometry = BoundaryFaces{};
-    if (has_lines) {
-        surface.mesh_lines = MeshLines{};
-    }
-    request.surfaces = {surface};
-    return request;
-}
 
 /** Takes `fixed` milliseconds and so many for all pixels of a picture of full size. */
 struct MadeUp {
@@ -34,19 +21,16 @@ struct MadeUp {
         now +=
             std::chrono::duration_cast<FrameSchedule::Clock::duration>(std::chrono::duration<double, std::milli>(milliseconds));
     }
-    /** Draws what is wanted; returns how long that took, nothing if nothing is wanted. */
-    std::optional<double> draw(const FrameRequest& request) {
+    /** Draws what is wanted, which has lines to refine; returns how long that took, nothing if nothing is wanted. */
+    std::optional<double> draw(bool has_lines = true) {
         const auto step = schedule.next(now);
         if (!step) {
             return {};
         }
-        const FrameRequest drawn = request_for(request, step->stage, step->divisor, step->with_lines);
-        const bool has_lines = !drawn.surfaces.empty() && drawn.surfaces[0].has_lines();
-        const double share = double(drawn.width) * drawn.height / (double(request.width) * request.height);
-        const double milliseconds =
-            fixed + (has_lines ? lines : 0) + share * all * (step->stage == Stage::exact && has_refinement(request) ? 3 : 1);
+        const double milliseconds = fixed + (has_lines && step->with_lines ? lines : 0) +
+                                    all / (step->divisor * step->divisor) * (step->stage == Stage::exact && has_lines ? 3 : 1);
         wait(milliseconds);
-        schedule.drawn(*step, has_refinement(request), milliseconds);
+        schedule.drawn(*step, has_lines, milliseconds);
         return milliseconds;
     }
 };
@@ -57,11 +41,10 @@ TEST_CASE("while things move ten frames a second are drawn, as large as that all
     for (const double all : {5.0, 60.0, 300.0, 1000.0, 20000.0}) {
         MadeUp made;
         made.all = all;
-        const FrameRequest request = request_of(true);
         double last = 0;
         for (int frame = 0; frame < 12; ++frame) {
             made.schedule.touch(made.now);
-            last = made.draw(request).value();
+            last = made.draw().value();
         }
         CAPTURE(all, made.schedule.moving_divisor(), last);
         CHECK(last <= 100);
@@ -72,25 +55,24 @@ TEST_CASE("while things move ten frames a second are drawn, as large as that all
         const std::uint32_t divisor = made.schedule.moving_divisor();
         for (int frame = 0; frame < 20; ++frame) {
             made.schedule.touch(made.now);
-            made.draw(request);
+            made.draw();
             CHECK(made.schedule.moving_divisor() == divisor);
         }
     }
 }
 
 TEST_CASE("time that no pixel takes is not mended by fewer pixels") {
-    const FrameRequest request = request_of(true);
     for (const double fixed : {60.0, 150.0}) {
         MadeUp made;
         made.fixed = fixed;
         made.all = 400;
         // Once at rest, so that it is known what all pixels take.
-        while (made.draw(request)) {
+        while (made.draw()) {
         }
         double last = 0;
         for (int frame = 0; frame < 12; ++frame) {
             made.schedule.touch(made.now);
-            last = made.draw(request).value();
+            last = made.draw().value();
         }
         CAPTURE(fixed, made.schedule.moving_divisor(), last);
         CHECK(last <= std::max(100.0, 1.35 * fixed));
@@ -102,21 +84,20 @@ TEST_CASE("time that no pixel takes is not mended by fewer pixels") {
 TEST_CASE("lines that take too long are left out while things move") {
     MadeUp made;
     made.lines = 300;
-    const FrameRequest request = request_of(true);
     double last = 0;
     for (int round = 0; round < 3; ++round) {
         for (int frame = 0; frame < 12; ++frame) {
             made.schedule.touch(made.now);
-            last = made.draw(request).value();
+            last = made.draw().value();
         }
         CHECK(last <= 100);
         CHECK(made.schedule.moving_divisor() <= 4);
         made.schedule.touch(made.now);
         CHECK_FALSE(made.schedule.next(made.now)->with_lines);
         made.schedule.release();
-        made.draw(request);
+        made.draw();
         CHECK(made.schedule.next(made.now)->with_lines);
-        while (made.draw(request)) {
+        while (made.draw()) {
         }
         CHECK(made.schedule.shown() == Stage::exact);
     }
@@ -125,7 +106,7 @@ TEST_CASE("lines that take too long are left out while things move") {
     made.all = 100;
     for (int frame = 0; frame < 12; ++frame) {
         made.schedule.change();
-        while (made.draw(request)) {
+        while (made.draw()) {
         }
     }
     made.schedule.touch(made.now);
@@ -134,67 +115,62 @@ TEST_CASE("lines that take too long are left out while things move") {
 
 TEST_CASE("when the hand rests all pixels come, then exact ones, then nothing") {
     MadeUp made;
-    const FrameRequest request = request_of(true);
     made.schedule.touch(made.now);
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::moving);
     // The hand is still there, and has not moved.
-    CHECK_FALSE(made.draw(request));
+    CHECK_FALSE(made.draw());
     made.wait(250);
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::full);
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::exact);
-    CHECK_FALSE(made.draw(request));
+    CHECK_FALSE(made.draw());
     // Let go: no need to wait.
     made.schedule.touch(made.now);
     CHECK(made.schedule.shown() == Stage::none);
-    made.draw(request);
+    made.draw();
     made.schedule.release();
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::full);
     // Something typed in: something to look at until all pixels are there.
     made.schedule.change();
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::moving);
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::full);
 }
 
 TEST_CASE("what is quick comes with all pixels at once") {
     MadeUp made;
     made.all = 30;
-    const FrameRequest request = request_of(true);
     for (int frame = 0; frame < 3; ++frame) {
         made.schedule.change();
-        made.draw(request);
-        made.draw(request);
-        made.draw(request);
+        made.draw();
+        made.draw();
+        made.draw();
     }
     made.schedule.change();
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::full);
-    made.draw(request);
+    made.draw();
     CHECK(made.schedule.shown() == Stage::exact);
 }
 
 TEST_CASE("surfaces without lines are exact when all pixels are drawn") {
     MadeUp made;
-    const FrameRequest request = request_of(false);
-    CHECK_FALSE(has_refinement(request));
     made.schedule.touch(made.now);
-    made.draw(request);
+    made.draw(false);
     CHECK(made.schedule.shown() == Stage::moving);
     made.schedule.release();
-    made.draw(request);
+    made.draw(false);
     CHECK(made.schedule.shown() == Stage::exact);
-    CHECK_FALSE(made.draw(request));
+    CHECK_FALSE(made.draw(false));
 }
 
 TEST_CASE("a large picture is outdated by the next movement, a small one is not") {
     MadeUp made;
-    const FrameRequest request = request_of(true);
-    made.draw(request);
+    made.draw();
     const auto full = made.schedule.next(made.now);
     REQUIRE(full);
     CHECK(full->stage == Stage::full);
@@ -208,30 +184,4 @@ TEST_CASE("a large picture is outdated by the next movement, a small one is not"
     CHECK_FALSE(made.schedule.is_outdated(*moving, made.now));
     made.schedule.release();
     CHECK(made.schedule.is_outdated(*moving, made.now));
-}
-
-TEST_CASE("stages ask for less than the request, and the exact one for the request itself") {
-    FrameRequest request = request_of(true);
-    request.camera.image_shift = {6, -3};
-    request.volume.emplace();
-    const FrameRequest moving = request_for(request, Stage::moving, 3);
-    CHECK(moving.width == 427);
-    CHECK(moving.height == 240);
-    CHECK(moving.camera.image_shift == std::array<double, 2>{2, -1});
-    CHECK(moving.surfaces[0].subdivisions < request.surfaces[0].subdivisions);
-    CHECK(moving.volume->tolerance > request.volume->tolerance);
-    CHECK(moving.surfaces[0].has_lines());
-    CHECK_FALSE(request_for(request, Stage::moving, 3, false).surfaces[0].has_lines());
-    const FrameRequest full = request_for(request, Stage::full, 1);
-    CHECK(full.width == request.width);
-    CHECK(full.volume->tolerance == moving.volume->tolerance);
-    const FrameRequest exact = request_for(request, Stage::exact, 1);
-    CHECK(exact.volume->tolerance == request.volume->tolerance);
-    CHECK(exact.surfaces[0].subdivisions == request.surfaces[0].subdivisions);
-    // Coarser wishes stay as they are.
-    request.volume->tolerance = 0.1;
-    request.surfaces[0].subdivisions = 1;
-    CHECK_FALSE(has_refinement(request));
-    CHECK(request_for(request, Stage::full, 1).volume->tolerance == 0.1);
-    CHECK(request_for(request, Stage::full, 1).surfaces[0].subdivisions == 1);
 }
