@@ -13,6 +13,8 @@
 // Intervals are not made shorter than this share of that.
 #define CORE_FLOOR elvis_real(0.25LF)
 
+#define CORE_NO_CODE 0xffffffffu
+
 struct core_interval_search {
     // CORE_NO_ELEMENT: nothing is looked at.
     uint element;
@@ -25,6 +27,8 @@ struct core_interval_search {
     elvis_real x, y, z;
     // Of the mapping in the octant.
     elvis_real curvature;
+    // Of an octant that is bent so much that a prediction may be another point's; else CORE_NO_CODE.
+    uint bent_code;
     // Bound of the field's second derivatives, from the last interval that was long enough for it.
     elvis_real bend;
     // Evaluations in the octant; those of them that linearized the mapping anew for the same interval.
@@ -33,7 +37,7 @@ struct core_interval_search {
 
 core_interval_search core_no_search() {
     const elvis_real zero = elvis_real(0);
-    return core_interval_search(CORE_NO_ELEMENT, zero, zero, zero, zero, zero, zero, zero, zero, zero, CORE_FAR, 0u, 0u);
+    return core_interval_search(CORE_NO_ELEMENT, zero, zero, zero, zero, zero, zero, zero, zero, zero, CORE_NO_CODE, CORE_FAR, 0u, 0u);
 }
 
 struct core_evaluation {
@@ -67,6 +71,15 @@ struct core_evaluation {
 #define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
 #endif
 
+// How far from xi points of the octant are at most, or nothing, where that need not be asked: in octants that are bent little, a second
+// solution of a prediction lies outside (isosurface/octant_mapping.glsl).
+elvis_real core_farthest_of(core_interval_search search, elvis_vec3 xi) {
+    const bool is_bent = search.bent_code != CORE_NO_CODE;
+    const uint code = is_bent ? search.bent_code : 0u;
+    const elvis_real away = core_max_norm(elvis_vec3(core_octant_middle(code)) - xi);
+    return is_bent ? min(away + elvis_real(core_octant_half_side(code)), elvis_real(2)) : elvis_real(0);
+}
+
 core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search search) {
     core_evaluation evaluation;
     evaluation.element = search.element != CORE_NO_ELEMENT ? search.element : 0u;
@@ -84,7 +97,7 @@ core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search 
     evaluation.half_width = elvis_real(0.5LF) * (search.to - search.from);
     evaluation.reach = max(max(evaluation.half_width, evaluation.shortest), search.wide);
     evaluation.interval = core_interval_in_element(evaluation.xi, evaluation.frame, ((shift - position) + ray.origin) + step, ray.direction,
-                                                   evaluation.reach, search.curvature);
+                                                   evaluation.reach, search.curvature, core_farthest_of(search, evaluation.xi));
 #if ELVIS_HAS_INSIDE
     evaluation.own = core_inside_at(evaluation.element, evaluation.xi);
     core_cut_interval_inside(evaluation.own, evaluation.interval);

@@ -31,9 +31,10 @@ elvis_real core_interval_radius(core_ray_interval interval) {
     return max(core_max_norm(interval.q + interval.low * interval.w), core_max_norm(interval.q + interval.high * interval.w));
 }
 
-// The interval from -half_width to half_width, cut by the faces. `offset`: of the middle from the image of xi.
+// The interval from -half_width to half_width, cut by the faces. `offset`: of the middle from the image of xi. `farthest`: from xi, of the
+// points that are looked for; 0: the near solution of a prediction is theirs.
 core_ray_interval core_interval_in_element(elvis_vec3 xi, const core_frame frame, elvis_vec3 offset, elvis_vec3 direction,
-                                           elvis_real half_width, elvis_real curvature) {
+                                           elvis_real half_width, elvis_real curvature, elvis_real farthest) {
     core_ray_interval interval;
     interval.q = core_to_xi(frame, offset);
     interval.w = core_to_xi(frame, direction);
@@ -49,7 +50,9 @@ core_ray_interval core_interval_in_element(elvis_vec3 xi, const core_frame frame
     // What is left is nearer, and so better known: a second time.
     for (int iteration = 0; iteration < 2; ++iteration) {
         const elvis_real step = core_interval_radius(interval);
-        interval.beyond = core_prediction_error(curvature, step) + rounding;
+        interval.beyond = (farthest > elvis_real(0) ? core_prediction_error_within(curvature, step, farthest)
+                                                    : core_prediction_error(curvature, step)) +
+                          rounding;
         interval.radius = step + interval.beyond;
         elvis_real low = interval.low, high = interval.high;
         for (int face = 0; face < CORE_N_FACES; ++face) {

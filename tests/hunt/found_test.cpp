@@ -295,6 +295,29 @@ TEST_CASE("Isosurfaces in pyramids by projection rest on bounds, not on estimate
     CHECK(tally.flagged < tally.pixels / 50);
 }
 
+TEST_CASE("In pyramids that are bent so much that predictions lead to other points no crossing is missed") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("torus.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "torus", "shape": "pyramid", "elements": [3, 1, 4], "layers": 2,)"
+                     R"( "order": 5, "geometry_order": 4, "field": "sphere"})",
+                     file.path());
+    FrameRequest request = request_from({-0.23601224082715197, 2.292304893646951, 2.0293439090526646},
+                                        {-0.5080298233071213, -0.9250201885106666, 0.025640899487317625});
+    request.camera.up = {0.9857259144840135, 0.16835801589070715, 0};
+    request.camera.field_of_view = 4;
+    request.width = 16;
+    request.height = 12;
+    Surface surface = colored_surface();
+    surface.geometry = Isosurfaces{.values = {1.1236413698447634}};
+    surface.clip = {{-0.4279854530031429, 0.6044645922963239, 0.671901040836918, 0.43523404403054633}};
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    std::cout << "bent pyramids: " << tally.hits << " hits, " << tally.far + tally.near << " silent, " << tally.flagged
+              << " of " << tally.pixels << " flagged\n";
+    CHECK(tally.hits > tally.pixels / 20);
+    CHECK(tally.far + tally.near == 0);
+}
+
 TEST_CASE("By eigenvalues, a crossing of the last round that is found again hides no other") {
     // Far from the origin, rounding lets single precision find the last crossing again.
     const TemporaryFile file("far.h5");
