@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <utility>
 
 namespace elvis {
 namespace {
@@ -14,12 +13,8 @@ namespace {
 constexpr int max_steps = 40;
 // After a step this short the next one, by quadratic convergence, would be below rounding.
 constexpr double converged_step = 1e-10;
-// A target this far beyond a face in the linear model of a point on that face is outside even of a strongly curved element;
-// nearer ones are tried from several starts.
-constexpr double clearly_outside = 1.0;
-// Points per direction of the lattices that starts are chosen from, and how many of each are used. Near where the Jacobian
-// nearly vanishes, Newton's method only leads to the target from close by.
-constexpr int coarse_lattice = 5, fine_lattice = 17;
+// Points per direction of the lattice that starts are chosen from, and how many of them are used.
+constexpr int lattice_size = 5;
 constexpr std::size_t n_starts = 6;
 
 // Let a search have settled at p, the point of the shape nearest to a prediction q beyond it, with the Jacobian J at p. If a
@@ -149,7 +144,7 @@ std::vector<Search> search_together(elvis_shape shape, const MappingFunction& ma
 // Points of the shape and where they lie, evaluated when they are first asked for.
 class Lattice {
 public:
-    Lattice(elvis_shape shape, const MappingFunction& mapping, int size) : m_shape(shape), m_mapping(mapping), m_size(size) {}
+    Lattice(elvis_shape shape, const MappingFunction& mapping) : m_shape(shape), m_mapping(mapping) {}
 
     // Three numbers a point.
     const std::vector<double>& points() {
@@ -165,10 +160,10 @@ private:
     void prepare() {
         if (!m_points.empty())
             return;
-        const auto at = [this](int index) { return 2.0 * index / (m_size - 1) - 1; };
-        for (int k = 0; k < m_size; ++k)
-            for (int j = 0; j < m_size; ++j)
-                for (int i = 0; i < m_size; ++i) {
+        const auto at = [](int index) { return 2.0 * index / (lattice_size - 1) - 1; };
+        for (int k = 0; k < lattice_size; ++k)
+            for (int j = 0; j < lattice_size; ++j)
+                for (int i = 0; i < lattice_size; ++i) {
                     const Vector3 xi{at(i), at(j), at(k)};
                     if (reference_excess(m_shape, xi) <= 0)
                         m_points.insert(m_points.end(), xi.begin(), xi.end());
@@ -179,7 +174,6 @@ private:
 
     elvis_shape m_shape;
     const MappingFunction& m_mapping;
-    int m_size;
     std::vector<double> m_points, m_positions;
 };
 
@@ -209,35 +203,26 @@ std::vector<Vector3> nearest_starts(Lattice& lattice, const Vector3& target) {
     const auto distance = [&](std::size_t i) {
         return std::hypot(positions[3 * i] - target[0], positions[3 * i + 1] - target[1], positions[3 * i + 2] - target[2]);
     };
-    const std::size_t n = std::min(order.size(), n_starts);
-    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n), order.end(),
-                      [&](std::size_t a, std::size_t b) { return std::pair(distance(a), a) < std::pair(distance(b), b); });
-    order.resize(n);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+    order.resize(std::min(order.size(), n_starts));
     std::vector<Vector3> starts;
     for (const std::size_t i : order)
         starts.push_back(triple(points, i));
     return starts;
 }
 
-struct Lattices {
-    Lattice coarse, fine;
-};
-
 // Goes on from other starts where the first one does not decide.
 Inversion decided(elvis_shape shape, const MappingFunction& mapping, const Vector3& target, const Search& first,
-                  Lattices& lattices) {
-    if (first.outcome == Inversion::Outcome::inside ||
-        (first.outcome == Inversion::Outcome::outside &&
-         (first.excess > clearly_outside || is_surely_outside(first, lattices.coarse))))
+                  Lattice& lattice) {
+    if (first.outcome == Inversion::Outcome::inside || is_surely_outside(first, lattice))
         return {first.outcome, first.xi};
     bool is_outside = first.outcome == Inversion::Outcome::outside;
-    for (Lattice* lattice : {&lattices.coarse, &lattices.fine})
-        for (const Vector3& start : nearest_starts(*lattice, target)) {
-            const Search next = search_from(shape, mapping, target, start, true);
-            if (next.outcome == Inversion::Outcome::inside)
-                return {next.outcome, next.xi};
-            is_outside = is_outside || next.outcome == Inversion::Outcome::outside;
-        }
+    for (const Vector3& start : nearest_starts(lattice, target)) {
+        const Search next = search_from(shape, mapping, target, start, true);
+        if (next.outcome == Inversion::Outcome::inside)
+            return {next.outcome, next.xi};
+        is_outside = is_outside || next.outcome == Inversion::Outcome::outside;
+    }
     return {is_outside ? Inversion::Outcome::outside : Inversion::Outcome::failed, {}};
 }
 
@@ -269,11 +254,11 @@ Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, cons
 
 std::vector<Inversion> invert_mapping(elvis_shape shape, const MappingFunction& mapping, std::span<const Vector3> targets) {
     const std::vector<Search> searches = search_together(shape, mapping, targets);
-    Lattices lattices{Lattice(shape, mapping, coarse_lattice), Lattice(shape, mapping, fine_lattice)};
+    Lattice lattice(shape, mapping);
     std::vector<Inversion> inversions;
     inversions.reserve(targets.size());
     for (std::size_t i = 0; i < targets.size(); ++i)
-        inversions.push_back(decided(shape, mapping, targets[i], searches[i], lattices));
+        inversions.push_back(decided(shape, mapping, targets[i], searches[i], lattice));
     return inversions;
 }
 

@@ -91,7 +91,7 @@ TEST_CASE("the inverse mapping finds points of pyramids whose Jacobian nearly va
     // A ring of four elements' length, cut into pyramids.
     const TemporaryFile file("torus.h5");
     generate(R"({"generator": 1, "mesh": "torus", "shape": "pyramid", "elements": [3, 1, 4], "layers": 2,)"
-             R"( "order": 1, "geometry_order": 4, "field": "linear"})",
+             R"( "order": 1, "geometry_order": 4, "field": "sinc"})",
              file.path());
     const Volume volume(read_volume(file.path()));
     std::mt19937_64 random(2);
