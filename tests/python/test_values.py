@@ -1,5 +1,6 @@
 """Values, information, conversion, and arguments that are wrong."""
 
+import inspect
 import random
 import threading
 import json
@@ -188,13 +189,17 @@ class Values(WithVolume):
                   np.zeros((2, 2)), np.zeros((1, 3)), np.full((2, 3), np.inf), np.zeros((2, 3), dtype=complex)]
         calls = [self.volume.probe, self.volume.range, self.volume.info, self.volume.scene, self.volume.render, elvis.open,
                  elvis.convert, elvis.Scene.read, elvis.Surface, elvis.from_arrays, elvis.Space, self.volume.update_field, self.volume.animate, self.volume.pick, self.volume.percentiles,
-                 self.volume.complete]
+                 self.volume.complete, self.volume.integrate, self.volume.extract, self.volume.streamlines, self.volume.pathlines,
+                 self.volume.warp, self.volume.walk_line]
         n_errors = 0
-        for _ in range(200):
+        for _ in range(300):
+            call = rng.choice(calls)
             arguments = [rng.choice(things) for _ in range(rng.randint(0, 3))]
+            named = [parameter.name for parameter in inspect.signature(call).parameters.values() if parameter.kind == parameter.KEYWORD_ONLY]
+            keywords = {name: rng.choice(things) for name in named if rng.random() < 0.15}
             try:
                 with np.errstate(all="ignore"):
-                    rng.choice(calls)(*arguments)
+                    call(*arguments, **keywords)
             except Exception:  # noqa: BLE001: any exception will do, a crash will not.
                 n_errors += 1
         self.assertGreater(n_errors, 50)
