@@ -1,11 +1,12 @@
-# The library's tests, and Python's of wrong arguments, with a sanitizer: builds what they need in a tree of its own.
+# The library's tests, those of solvers whose ranks are threads, and Python's of wrong arguments, with a sanitizer: builds what they
+# need in a tree of its own.
 #   -DSOURCE=this project -DWORK=folder to build in -DSANITIZER=thread, or address,undefined -DPYTHON=interpreter, or empty
 include("${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake")
 
 file(MAKE_DIRECTORY "${WORK}")
 run(${CMAKE_COMMAND} -S "${SOURCE}" -B "${WORK}" -G Ninja "-DELVIS_SANITIZE=${SANITIZER}" -DCMAKE_BUILD_TYPE=Release
     "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -g1 -DNDEBUG")
-set(targets library_test)
+set(targets library_test insitu_test)
 if(PYTHON)
   list(APPEND targets elvis_python elvis_python_package)
 endif()
@@ -14,6 +15,7 @@ run(${CMAKE_COMMAND} --build "${WORK}" --target ${targets})
 set(ENV{ASAN_OPTIONS} "detect_leaks=0")
 set(ENV{TSAN_OPTIONS} "halt_on_error=1")
 run("${WORK}/tests/library/library_test")
+run("${WORK}/tests/insitu/insitu_test")
 if(PYTHON)
   foreach(library libasan.so libubsan.so)
     execute_process(COMMAND c++ -print-file-name=${library} OUTPUT_VARIABLE path OUTPUT_STRIP_TRAILING_WHITESPACE)

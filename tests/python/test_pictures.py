@@ -3,12 +3,14 @@
 import base64
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
 import threading
 import time
 import unittest
+from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
@@ -159,6 +161,13 @@ class Pictures(WithVolume):
         self.assertEqual(json.loads(again.to_json()), json.loads(scene.to_json()))
         self.assertEqual(again.surfaces[-1].to_dict()["from"], [0, 0, 0])
         again.check()
+
+    def test_flags_are_those_of_the_library(self):
+        header = (Path(__file__).resolve().parents[2] / "core/api/include/elvis/editing.h").read_text()
+        bits = {name: int(bit) for name, bit in re.findall(r"#define ELVIS_PIXEL_(\w+) (\d+)u", header)}
+        self.assertEqual({flag.name: flag.value for flag in elvis.Flag}, bits)
+        doubts = re.search(r"ELVIS_PIXEL_DOUBTS((?:.*\\\n)+.*\))", header)[1]
+        self.assertEqual(sum(bits[name] for name in re.findall(r"ELVIS_PIXEL_(\w+)", doubts)), elvis.Flag.DOUBTS)
 
     def test_a_hundred_pictures_take_no_more_memory(self):
         scene = self.scene()

@@ -9,6 +9,7 @@
 from ._answers import Break, Integral, Mesh, Side, Streamline
 from ._arrays import Elements, Space, from_arrays
 from ._elvis import Error
+from ._flag import Flag
 from ._frames import Frames
 from ._library import context, convert, devices, plugins, set_up
 from ._picture import Picture
@@ -19,5 +20,5 @@ from ._volume import Field, Range, Volume, open
 from .scene_objects import *  # noqa: F403: the objects of scenes, by their names in the scene file.
 from .scene_objects import __all__ as _objects
 
-__all__ = ["Break", "Elements", "Error", "Field", "Frames", "Integral", "Mesh", "Picture", "Range", "Samples", "Scene", "Side", "Space", "Streamline", "View", "Volume",
+__all__ = ["Break", "Elements", "Error", "Field", "Flag", "Frames", "Integral", "Mesh", "Picture", "Range", "Samples", "Scene", "Side", "Space", "Streamline", "View", "Volume",
            "context", "convert", "devices", "from_arrays", "open", "plugins", "set_up", *_objects]

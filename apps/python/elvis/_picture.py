@@ -67,7 +67,7 @@ class Picture:
 
     @property
     def flags(self) -> np.ndarray:
-        """Bits that say what is doubtful (scenes/buffers.md): uint32, (height, width)."""
+        """Bits that say what is doubtful (elvis.Flag): uint32, (height, width)."""
         return self._array("flags")
 
     @property

@@ -17,14 +17,13 @@ scene.surfaces[0].opacity = 0.5
 picture = scene.render(240, 180)
 print(*picture.warnings, sep="\n")
 
-# The bits of flags are those of core/scene/buffers.md.
-for bit, meaning in [(8, "Newton failed"), (64, "an isosurface is undecided"), (256, "undecided within rounding"),
-                     (1024, "a limit of work was reached"), (2048, "estimated")]:
-    print(f"{np.count_nonzero(picture.flags & bit)} pixels: {meaning}")
+for flag in elvis.Flag:
+    if n_pixels := np.count_nonzero(picture.flags & flag):
+        print(f"{n_pixels} pixels: {flag.name.lower().replace('_', ' ')}")
 
 # The same picture with doubtful pixels in red.
 shown = picture.color.copy()
-shown[(picture.flags & (8 | 64 | 256 | 1024)) != 0] = [255, 0, 0, 255]
+shown[(picture.flags & elvis.Flag.DOUBTS) != 0] = [255, 0, 0, 255]
 picture.save(out / "doubt.png")
 try:
     import matplotlib.image
