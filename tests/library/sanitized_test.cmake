@@ -4,7 +4,8 @@
 include("${CMAKE_CURRENT_LIST_DIR}/../support/run.cmake")
 
 file(MAKE_DIRECTORY "${WORK}")
-run(${CMAKE_COMMAND} -S "${SOURCE}" -B "${WORK}" -G Ninja "-DELVIS_SANITIZE=${SANITIZER}" -DCMAKE_BUILD_TYPE=Release
+# With a sanitizer's own code GCC warns of what is not there.
+run(${CMAKE_COMMAND} -S "${SOURCE}" -B "${WORK}" -G Ninja "-DELVIS_SANITIZE=${SANITIZER}" -DCMAKE_BUILD_TYPE=Release -DELVIS_COMPILE_TOGETHER=ON -DELVIS_WARNINGS_AS_ERRORS=OFF
     "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -g1 -DNDEBUG")
 set(targets library_test insitu_test)
 if(PYTHON)
