@@ -23,14 +23,10 @@ std::shared_ptr<const Plugin> converter_of(const PluginRegistry& registry, const
 
 } // namespace
 
-ConvertReport convert(const ConvertRequest& request, const TaskControl& control,
-                      const std::function<void(const std::string& id)>& on_plugin, Team* team) {
+ConvertReport convert(const ConvertRequest& request, const TaskControl& control, Team* team) {
     control.progress(-1, "finding the plugin");
     const PluginRegistry registry;
     const std::shared_ptr<const Plugin> plugin = converter_of(registry, request);
-    if (on_plugin) {
-        on_plugin(plugin->id());
-    }
     control.progress(-1, "opening the files");
     const SourceVolume source(plugin, request.inputs, request.plugin_options, &control);
     OneProcess alone;

@@ -5,15 +5,15 @@ import re
 import sys
 from pathlib import Path
 
-clients = ["apps/elvis/view", "apps/serve", "apps/paraview", "apps/python", "apps/elvis/render", "apps/elvis/command_info.cpp",
+clients = ["apps/elvis/view", "apps/serve", "apps/paraview", "apps/python", "apps/elvis/render", "apps/elvis/convert", "apps/elvis/command_info.cpp",
            "apps/elvis/command_probe.cpp", "apps/elvis/command_serve.cpp", "apps/elvis/command_view.cpp",
            "apps/elvis/library_context.cpp", "apps/elvis/open_volume.hpp"]
 # Of small things that know nothing of volumes and pictures.
 general = ("core/base/", "core/late_library/")
 # A window has a Vulkan surface of its own to show pictures in.
 of_window = (*general, "core/vulkan/")
-# Drawing in parts of a volume, which the library has no word for.
-parts = {"native_volume", "part_choice", "parts_film", "render_parts"}
+# Drawing in parts of a volume, and what many processes do together: the library has no word for it.
+parts = {"native_volume", "part_choice", "parts_film", "render_parts", "convert_together"}
 
 source = Path(sys.argv[1])
 n_files = 0

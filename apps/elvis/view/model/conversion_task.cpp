@@ -1,6 +1,6 @@
 #include "conversion_task.hpp"
 
-#include <apps/elvis/conversion_process.hpp>
+#include <apps/elvis/convert/conversion.hpp>
 
 #include <core/base/child_process.hpp>
 #include <core/base/error.hpp>
@@ -34,9 +34,10 @@ void ConversionTask::start(std::vector<std::string> inputs, std::string output) 
         try {
             // Plugins print to a file, whose end is shown if they crash.
             const std::unique_ptr<std::FILE, int (*)(std::FILE*)> said(std::tmpfile(), std::fclose);
-            const int descriptor = said ? ::fileno(said.get()) : STDERR_FILENO;
-            result.report = nlohmann::json::parse(commands::convert_apart(inputs, output, m_control, descriptor));
-            result.said = said ? last_output(descriptor) : std::string();
+            commands::ConvertProcess process;
+            process.output = said ? ::fileno(said.get()) : STDERR_FILENO;
+            result.report = nlohmann::json::parse(commands::convert_separately({inputs, output}, m_control, process));
+            result.said = said ? last_output(process.output) : std::string();
         } catch (const Cancelled&) {
             result.was_cancelled = true;
         } catch (const std::exception& error) {

@@ -1,10 +1,14 @@
-#include <core/convert/request.hpp>
+#include "conversion.hpp"
+
+#include <apps/elvis/library_context.hpp>
 
 #include <core/base/child_process.hpp>
 #include <core/base/error.hpp>
-#include <core/base/log.hpp>
 #include <core/base/memory.hpp>
 #include <core/base/temporary_folder.hpp>
+
+#include <nlohmann/json.hpp>
+#include <spdlog/spdlog.h>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -18,7 +22,7 @@
 #include <mutex>
 #include <optional>
 
-namespace elvis {
+namespace elvis::commands {
 
 namespace {
 
@@ -47,24 +51,23 @@ TemporaryFolder folder_beside(const std::string& output) {
     }
 }
 
-std::vector<std::string> arguments_of(const ConvertRequest& request, const std::string& output, const ConvertProcess& process) {
+std::vector<std::string> arguments_of(const Conversion& request, const std::string& output, const ConvertProcess& process) {
     std::vector<std::string> arguments{"elvis"};
     arguments.insert(arguments.end(), process.first_arguments.begin(), process.first_arguments.end());
     arguments.insert(arguments.end(), {"convert", "--answer", std::to_string(ChildProcess::answer), "-o", output});
     if (!request.plugin.empty()) {
         arguments.insert(arguments.end(), {"--plugin", request.plugin});
     }
-    if (!request.plugin_options.empty()) {
-        arguments.insert(arguments.end(), {"--options", request.plugin_options});
+    if (!request.options.empty()) {
+        arguments.insert(arguments.end(), {"--options", request.options});
     }
-    const ConvertOptions& options = request.options;
-    if (options.order) {
-        arguments.insert(arguments.end(), {"--order", std::to_string(*options.order)});
+    if (request.order >= 0) {
+        arguments.insert(arguments.end(), {"--order", std::to_string(request.order)});
     }
-    if (options.continuity) {
-        arguments.insert(arguments.end(), {"--continuity", *options.continuity == ELVIS_CONTINUITY_CONTINUOUS ? "cg" : "dg"});
+    if (!request.continuity.empty()) {
+        arguments.insert(arguments.end(), {"--continuity", request.continuity});
     }
-    for (const std::string& field : options.fields) {
+    for (const std::string& field : request.fields) {
         arguments.insert(arguments.end(), {"--fields", field});
     }
     arguments.emplace_back("--");
@@ -79,7 +82,7 @@ struct Answer {
     std::string plugin, activity;
     /** In which it crashed. */
     std::string function;
-    std::optional<ConvertReport> report;
+    std::optional<std::string> report;
     std::optional<std::string> error;
     bool was_cancelled = false;
 
@@ -97,7 +100,7 @@ struct Answer {
             break;
         }
         case report_mark:
-            report = report_from_json(text);
+            report = text;
             break;
         case error_mark:
             error = text;
@@ -121,7 +124,17 @@ struct Answer {
     }
 };
 
-Error crash(const ConvertRequest& request, const Answer& answer, int status, int output) {
+/** Of messages; empty where nobody reads the file, of which the conversion says more. */
+std::string plugin_of(const Conversion& request) {
+    try {
+        return request.plugin.empty() ? nlohmann::json::parse(library_context().describe_file(request.inputs.front()))["plugin"]
+                                      : nlohmann::json(request.plugin);
+    } catch (const error&) {
+        return {};
+    }
+}
+
+Error crash(const Conversion& request, const Answer& answer, int status, int output) {
     std::string what = (answer.plugin.empty() ? std::string("the conversion") : "plugin " + answer.plugin) + " crashed" +
                        (answer.function.empty() ? std::string() : " in its function " + answer.function) +
                        (answer.activity.empty() ? std::string() : ", while " + answer.activity) + ": its process " +
@@ -137,7 +150,7 @@ Error crash(const ConvertRequest& request, const Answer& answer, int status, int
 }
 
 /** Until the process ends, which is asked to stop or ended where it has to be. */
-Answer listen(ChildProcess& process, const ConvertRequest& request, const TaskControl& control, const ConvertProcess& options) {
+Answer listen(ChildProcess& process, const Conversion& request, const TaskControl& control, const ConvertProcess& options) {
     const std::uint64_t most_bytes = options.most_bytes != 0 ? options.most_bytes : available_bytes() / 16 * 15;
     Answer answer;
     std::optional<Clock::time_point> stop_since;
@@ -162,7 +175,7 @@ Answer listen(ChildProcess& process, const ConvertRequest& request, const TaskCo
         }
         if (stop_since && (now - *stop_since >= options.patience || (options.is_urgent && options.is_urgent()))) {
             process.kill();
-            log_warning("{} did not stop: its process was ended", answer.place());
+            spdlog::warn("{} did not stop: its process was ended", answer.place());
             throw Cancelled();
         }
         if (const std::uint64_t bytes = process.resident_bytes(); bytes > most_bytes) {
@@ -176,7 +189,7 @@ Answer listen(ChildProcess& process, const ConvertRequest& request, const TaskCo
 
 } // namespace
 
-ConvertReport convert_separately(const ConvertRequest& request, const TaskControl& control, const ConvertProcess& options) {
+std::string convert_separately(const Conversion& request, const TaskControl& control, const ConvertProcess& options) {
     control.check();
     const TemporaryFolder folder = folder_beside(request.output);
     const std::string output = folder.path("volume.h5");
@@ -198,7 +211,7 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
         throw crash(request, answer, status, options.output);
     }
     if (status != 0) {
-        log_warning("{}: the process {} after the conversion was done", answer.place(), ending_text(status));
+        spdlog::warn("{}: the process {} after the conversion was done", answer.place(), ending_text(status));
     }
     control.check();
     std::error_code error;
@@ -209,7 +222,7 @@ ConvertReport convert_separately(const ConvertRequest& request, const TaskContro
     return *answer.report;
 }
 
-void answer_conversion(const ConvertRequest& request, TaskControl& control, int descriptor) {
+void answer_conversion(const Conversion& request, TaskControl& control, int descriptor) {
     ::fcntl(descriptor, F_SETFD, FD_CLOEXEC); // not for what the plugin starts
     std::mutex mutex;
     Clock::time_point last{};
@@ -233,13 +246,13 @@ void answer_conversion(const ConvertRequest& request, TaskControl& control, int 
         write(progress_mark, text + std::string(activity));
     };
     try {
-        const ConvertReport report = convert(request, control, [&](const std::string& id) { write(plugin_mark, id); });
-        write(report_mark, to_json(report));
-    } catch (const Cancelled&) {
+        write(plugin_mark, plugin_of(request));
+        write(report_mark, convert_here(request, control));
+    } catch (const cancelled&) {
         write(cancelled_mark, {});
-    } catch (const std::exception& error) {
-        write(error_mark, error.what());
+    } catch (const std::exception& wrong) {
+        write(error_mark, wrong.what());
     }
 }
 
-} // namespace elvis
+} // namespace elvis::commands
