@@ -135,7 +135,7 @@ void check(const std::string& name, PatchMesh patches, const Camera& camera) {
     const CutShape shape = BezierSurface{mesh};
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(file.path(), precision);
-        const SurfaceSolver solver(device(), precision, shape);
+        const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
         const SurfacePicture picture = scene.draw(solver, shape, camera, size, size);
         Vector normal;
         const SurfaceComparison found = compare(

@@ -75,7 +75,7 @@ TEST_CASE("meshes of triangles are drawn exactly") {
     const Camera camera = camera_at({2.9, 2.3, 1.7});
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(file.path(), precision);
-        const SurfaceSolver solver(device(), precision, shape);
+        const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
         const SurfacePicture picture = scene.draw(solver, shape, camera, size, size);
         Vector normal;
         const SurfaceComparison found = compare(

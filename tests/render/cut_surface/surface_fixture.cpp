@@ -218,7 +218,7 @@ void check_no_gaps(const std::string& volume, const CutShape& shape, const Eigen
     camera.height = height;
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(volume, precision);
-        const SurfaceSolver solver(device(), precision, shape);
+        const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
         const SurfacePicture picture = scene.draw(solver, shape, camera, side, side);
         std::size_t missed = 0, undecided = 0;
         for (std::size_t pixel = 0; pixel < picture.element.size(); ++pixel) {

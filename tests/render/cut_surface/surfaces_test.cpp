@@ -82,7 +82,7 @@ void check(const std::vector<Case>& cases) {
         SurfaceScene scene(file.path(), precision);
         const bool is_single = precision == Precision::float32;
         for (const Case& one : cases) {
-            const SurfaceSolver solver(device(), precision, one.shape);
+            const SurfaceSolver solver(device(), precision, one.shape, scene.data().bounds());
             const SurfacePicture picture = scene.draw(solver, one.shape, one.camera, size, size);
             const SurfaceComparison found = compare(
                 picture, one.camera, size, size,
@@ -182,7 +182,7 @@ TEST_CASE("what lies behind a crossing is found by asking beyond it") {
         for (const auto& [shape, function] : {std::pair<CutShape, LevelFunction>(torus, level_of(torus)),
                                               std::pair<CutShape, LevelFunction>(gyroid, of_gyroid)}) {
             SurfaceScene scene(file.path(), precision);
-            const SurfaceSolver solver(device(), precision, shape);
+            const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
             std::vector<std::vector<double>> found(side * side);
             std::vector<std::uint32_t> flags(side * side, 0);
             std::vector<double> beyond;
@@ -233,7 +233,7 @@ TEST_CASE("a surface outside of the volume is shown if asked for") {
     const Sphere sphere{{0, 0.2, 0}, 1.2};
     const Camera camera = camera_at({2.9, 2.3, 1.7}, 55);
     SurfaceScene scene(file.path(), Precision::float64);
-    const SurfaceSolver solver(device(), Precision::float64, sphere);
+    const SurfaceSolver solver(device(), Precision::float64, sphere, scene.data().bounds());
     const SurfacePicture picture = scene.draw(solver, sphere, camera, size, size, {}, true);
     std::size_t n_inside = 0, n_outside = 0, n_wrong = 0;
     for (std::uint32_t row = 0; row < size; ++row)
