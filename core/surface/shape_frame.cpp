@@ -134,7 +134,7 @@ Vector point_near(const Form& form) {
     return is_found ? z : start;
 }
 
-/** Rows of shaders/cut_surface/surface_quadric.glsl. */
+/** Rows of shaders/surface/quadric.glsl. */
 std::vector<std::array<double, 4>> quadric_rows(const Form& form) {
     Vector anchor = form.origin + form.to_local.transpose() * point_near(form);
     for (Real& coordinate : anchor) {
@@ -157,7 +157,7 @@ std::vector<std::array<double, 4>> quadric_rows(const Form& form) {
              static_cast<double>(std::min<Real>(form.high - z[2], 1e30L)), form.is_capped ? 1.0 : 0.0, 0.0}};
 }
 
-/** Rows of shaders/cut_surface/surface_torus.glsl. */
+/** Rows of shaders/surface/torus.glsl. */
 std::vector<std::array<double, 4>> torus_rows(const Torus& torus, const Vector& reference) {
     const Matrix to_local = across(convert(torus.axis));
     const Vector center = convert(torus.center) - reference;

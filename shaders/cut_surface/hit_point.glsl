@@ -1,6 +1,6 @@
 // The point at which a pixel's ray meets the surface. The kernel brings picture/view.glsl.
 
-#include "cut_surface/hit_record.glsl"
+#include "surface/hit_record.glsl"
 
 // `most_error`: the most that a point's error along the ray may be; where it is more the pixel is undecided anyway.
 core_cut_point core_hit_point(core_cut_column along, elvis_real row, core_hit_record hit, float most_error) {

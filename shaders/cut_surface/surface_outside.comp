@@ -11,7 +11,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 layout(set = 0, binding = 1, std430) writeonly buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 2, std430) buffer core_marks_block { core_mark core_marks[]; };
 #if !CORE_ON_PLANE
-#include "cut_surface/hit_record.glsl"
+#include "surface/hit_record.glsl"
 layout(set = 0, binding = 3, std430) readonly buffer core_hits_block { core_hit_record core_hits[]; };
 #endif
 layout(push_constant) uniform core_parameters {
@@ -41,7 +41,7 @@ void main() {
     const bool is_at_end = point.is_hit && abs(depth_in_box) <= rounding;
 #else
     const elvis_real t = core_hits[safe].t;
-    // cut_surface/surface_hits.comp has looked at it.
+    // surface/hits.comp has looked at it.
     const bool is_at_end = false;
 #endif
     const bool is_elsewhere = pixel < core_n_pixels && core_marks[safe].owner >> CORE_OWNER_BITS != core_surface_number;

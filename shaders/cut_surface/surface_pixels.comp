@@ -1,4 +1,4 @@
-// The crossings of a picture's rays with a surface (cut_surface/surface_hits.comp), for the elements of one class: finds the element,
+// The crossings of a picture's rays with a surface (surface/hits.comp), for the elements of one class: finds the element,
 // evaluates the field. As cut_surface/cut_plane.comp, but for where the points come from.
 //
 // A work group is a tile of pixels, an invocation one of its columns.

@@ -1,5 +1,5 @@
 // For each tile of pixels, the nodes of a hierarchy that the tile's crossings with a surface can lie in: as cut_surface/cut_tiles.comp,
-// but the box of the crossings comes from cut_surface/surface_hits.comp.
+// but the box of the crossings comes from surface/hits.comp.
 
 layout(local_size_x = 32) in;
 
@@ -13,7 +13,7 @@ layout(push_constant) uniform core_constants {
     // Of the whole picture; and those that are wanted.
     uint core_n_tiles;
     uint core_first_tile, core_end_tile;
-    // Work groups of cut_surface/surface_hits.comp in a tile, one below the other, each with a box.
+    // Work groups of surface/hits.comp in a tile, one below the other, each with a box.
     uint core_n_groups;
 };
 

@@ -1,10 +1,10 @@
 // A quadric without ends, for lines/subpixel_search.glsl, silhouettes included. All that the rays of a square can meet of it
-// (cut_surface/quadric_span.glsl) shrinks with the square, and needs no plane of the whole pixel. If the pixel shows the front of the
+// (surface/quadric_span.glsl) shrinks with the square, and needs no plane of the whole pixel. If the pixel shows the front of the
 // quadric, then its back counts as hidden, and a line on the front is met.
 
 #include "lines/surface_box.glsl"
 #include "lines/element_start.glsl"
-#include "cut_surface/quadric_span.glsl"
+#include "surface/quadric_span.glsl"
 
 #define CORE_MOVES_FIRST 0
 

@@ -8,7 +8,7 @@
 #include "lines/surface_box.glsl"
 #include "lines/element_start.glsl"
 #if CORE_SHAPE_ROWS > 0
-#include "cut_surface/quadric_span.glsl"
+#include "surface/quadric_span.glsl"
 #endif
 
 #define CORE_MOVES_FIRST 0

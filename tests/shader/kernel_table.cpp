@@ -110,10 +110,9 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
                     .is_for_solids = true});
     const std::vector<Choice> hits{width, height, {"CORE_HIT_ROWS", {"4u"}}, {"CORE_SHAPE_ROWS", {"8"}}};
     const auto add_surface = [&](const char* file, std::vector<std::string> buffers, const Choice& ends, std::string text) {
-        KernelUse use{
-            .kernel = "cut_surface/surface_hits", .buffers = std::move(buffers), .choices = hits, .text = std::move(text)};
+        KernelUse use{.kernel = "surface/hits", .buffers = std::move(buffers), .choices = hits, .text = std::move(text)};
         use.choices.push_back(ends);
-        use.includes = std::string("#include \"cut_surface/surface_") + file + ".glsl\"\n";
+        use.includes = std::string("#include \"surface/") + file + ".glsl\"\n";
         uses.push_back(use);
     };
     add_surface("quadric", {}, no_or_yes("CORE_HAS_ENDS"), "");

@@ -19,7 +19,7 @@ public:
 
     /**
      * Marks the crossings of surface number `surface` that no element has taken. `frame`: the rays of the picture as the device
-     * has them. `hits`: the crossings (cut_surface/surface_hits.comp); null for a plane.
+     * has them. `hits`: the crossings (surface/hits.comp); null for a plane.
      */
     void draw(const Buffer& frame, const Buffer* hits, std::uint32_t surface, const LayerTarget& target) const;
 

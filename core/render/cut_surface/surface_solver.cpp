@@ -142,8 +142,7 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
     KernelRequest request;
     request.name = "surface_hits of " + frame.solver;
     request.kernel = request.name;
-    request.kernel_text =
-        "#include \"cut_surface/surface_" + kind.file + ".glsl\"\n#include \"cut_surface/surface_hits.comp\"\n";
+    request.kernel_text = "#include \"surface/" + kind.file + ".glsl\"\n#include \"surface/hits.comp\"\n";
     request.precision = precision;
     request.defines = kind.defines;
     request.defines.insert(request.defines.end(), {{"CORE_TILE_WIDTH", std::to_string(tile_width_on(device)) + "u"},

@@ -42,14 +42,14 @@ public:
 
     /** What begin() wrote. */
     const Buffer& rows() const { return *m_rows; }
-    /** Number of rows of a quadric without ends (shaders/cut_surface/surface_quadric.glsl); 0 of other shapes. */
+    /** Number of rows of a quadric without ends (shaders/surface/quadric.glsl); 0 of other shapes. */
     std::uint32_t quadric_rows() const { return m_is_quadric ? m_n_rows : 0; }
 
     /** What it finds has values and elements of its own, which it writes into samples and marks (SurfaceTraits). */
     bool has_own_values() const { return m_numbers != nullptr; }
 
     /**
-     * Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of cut_surface/surface_hits.comp, and 9, the
+     * Looks for the crossings of some rows of tiles. `buffers`: bindings 2 to 8 of surface/hits.comp, and 9, the
      * samples, if has_own_values().
      */
     void find(const Buffer& frame, std::span<const Buffer* const> buffers, std::span<const std::byte> parameters,
@@ -77,7 +77,7 @@ private:
     std::unique_ptr<ComposedKernel> m_kernel;
 };
 
-/** As cut_surface/surface_hits.comp reads them. */
+/** As surface/hits.comp reads them. */
 struct HitsParameters {
     std::uint32_t width, height;
     std::uint32_t first_tile_row;

@@ -1,6 +1,6 @@
 // What a solver for one kind of surface is asked, and what it answers.
 //
-// cut_surface/surface_KIND.glsl defines
+// surface/KIND.glsl defines
 //
 //     core_hit core_next_hit(core_surface_ray ray)
 //

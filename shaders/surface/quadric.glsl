@@ -12,7 +12,7 @@
 // The ray's parameter is counted from where f is extreme along the ray (if that is near), so that the discriminant of the quadratic
 // equation is the value there and loses nothing by cancellation. One step of Newton's method removes what the root still lost.
 
-#include "cut_surface/surface_hit.glsl"
+#include "surface/hit.glsl"
 
 struct core_quadric_point {
     elvis_real value, slope;

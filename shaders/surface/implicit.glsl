@@ -12,8 +12,8 @@
 //
 // Rows: xyz: the reference point, relative to that origin.
 
-#include "cut_surface/surface_hit.glsl"
-#include "cut_surface/illinois.glsl"
+#include "surface/hit.glsl"
+#include "surface/illinois.glsl"
 
 // Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 2000u

@@ -1,7 +1,7 @@
 // What surfaces made of many triangles or patches have in common: the way of a ray through the hierarchy over these, its items, and how
 // a crossing found in several of them is judged.
 
-#include "cut_surface/surface_hit.glsl"
+#include "surface/hit.glsl"
 #include "tiles/hierarchy.glsl"
 
 struct core_box_ray {

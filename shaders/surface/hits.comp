@@ -1,7 +1,7 @@
 // For each pixel the next crossing of its ray with a surface: t, its error, the normal, the bending; and the box of all crossings
 // of a tile of pixels, for cut_surface/surface_tiles.comp.
 //
-// The text of the kernel starts with cut_surface/surface_KIND.glsl, which gives core_next_hit. Crossings are looked for in a box only:
+// The text of the kernel starts with surface/KIND.glsl, which gives core_next_hit. Crossings are looked for in a box only:
 // that of the volume, outside of which nothing is to be seen.
 //
 // The first round looks from the eye on, or from core_beyond; every further one beyond the crossings of the round before that lie
@@ -12,8 +12,8 @@
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
 #include "picture/view.glsl"
-#include "cut_surface/surface_hit.glsl"
-#include "cut_surface/hit_record.glsl"
+#include "surface/hit.glsl"
+#include "surface/hit_record.glsl"
 #include "picture/place_error.glsl"
 
 layout(set = 0, binding = 2, std430) buffer core_hits_block { core_hit_record core_hits[]; };

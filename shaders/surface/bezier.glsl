@@ -13,7 +13,7 @@
 //
 // Buffers: core_patches, 16 points each, v running first; core_nodes.
 
-#include "cut_surface/surface_descent.glsl"
+#include "surface/descent.glsl"
 
 // Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 3000u

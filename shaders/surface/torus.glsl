@@ -15,8 +15,8 @@
 // the factor of p = e ((rho + R)^2 + h^2 - r^2) that belongs to the surface, about 2 r times the distance from it, which loses no
 // digits. For a spindle torus (r > R) the other factor vanishes on the inner part, and p is taken itself.
 
-#include "cut_surface/surface_hit.glsl"
-#include "cut_surface/illinois.glsl"
+#include "surface/hit.glsl"
+#include "surface/illinois.glsl"
 
 #define CORE_TORUS_STEPS 60
 

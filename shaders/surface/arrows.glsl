@@ -8,7 +8,7 @@
 
 #define CORE_HAS_OWN_VALUES 1
 
-#include "cut_surface/surface_descent.glsl"
+#include "surface/descent.glsl"
 
 // Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 3000u

@@ -6,7 +6,7 @@
 // Buffers: core_tubes, twelve numbers each: ends of the piece before, of the piece, of the piece after, in order along the curve;
 // core_nodes.
 
-#include "cut_surface/surface_descent.glsl"
+#include "surface/descent.glsl"
 
 // Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 3000u

@@ -15,7 +15,7 @@
 // p. At a point y of that plane, f(y) = f(p) + q(y - p); where f falls along the ray there by at least B, the front is at most
 // 2 |f(y)| / B away along the ray, since a > 0.
 
-#include "cut_surface/surface_quadric.glsl"
+#include "surface/quadric.glsl"
 #include "picture/tangent_square.glsl"
 
 struct core_quadric_span {
