@@ -36,10 +36,10 @@ struct FaceShape {
 };
 
 /**
- * Appends the patches of face number `face`. A face is divided until its normal turns by less than 0.4 from the middle of
- * a patch to its edge, but at most `max_level` times. Bounds come from the coefficients' absolute values, since |T_n| <= 1,
- * |T_n'| <= n^2, |T_n''| <= n^2 (n^2 - 1) / 3 on [-1, 1]; they hold for the face as a polynomial. `centre`: what the records'
- * coordinates are relative to.
+ * Appends the patches of face number `face`. A face is divided until its normal's turn from the middle of a patch to its edge
+ * and the share of the tangents that changes are less than 0.4 together, but at most `max_level` times. Bounds come from the
+ * coefficients' absolute values, since |T_n| <= 1, |T_n'| <= n^2, |T_n''| <= n^2 (n^2 - 1) / 3 on [-1, 1]; they hold for the
+ * face as a polynomial. `centre`: what the records' coordinates are relative to.
  */
 void append_patches(const FaceShape& shape, std::uint32_t face, int max_level, const Vector3& centre, FacePatches& patches);
 
