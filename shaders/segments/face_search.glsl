@@ -12,6 +12,9 @@
 //   the height surely falls                     it enters there once at most: Newton's method tells where
 //   else                                        the square is cut in four
 //
+// Through a face whose normals lie within a cone the ray enters once at most. Where Newton's method finds it to meet what continues such a
+// face beyond an edge, nearer than the normals may leave the cone, it does not meet the face.
+//
 // The kernel brings segments/segment.glsl.
 
 #include "element/face_frame.glsl"
@@ -147,8 +150,20 @@ core_face_entry core_search_face(const core_traced_ray ray, uint element, elvis_
     // over the square.
     const bool is_only = (is_found && is_once) || (is_single && distance <= half_side + slack) ||
                          slope.z < -core_height_change(motion, curvature, distance + half_side);
+    // The mapping is known in the element only.
+    const elvis_real outside = face.is_triangle ? elvis_real(0.5LF) * max(next_s + next_r - elvis_real(1), elvis_real(0)) : elvis_real(0);
+    const elvis_real inner_s = clamp(next_s - outside, elvis_real(0), elvis_real(1));
+    const elvis_real inner_r = clamp(next_r - outside, elvis_real(0), face.is_triangle ? elvis_real(1) - inner_s : elvis_real(1));
+    const bool moves = max(abs(inner_s - s), abs(inner_r - r)) > elvis_real(0.0625LF) * step;
+    // The ray meets the face once at most; here it meets what continues it beyond an edge. Predictions are off in s and r as the
+    // height moves along the ray.
+    const elvis_real oblique = elvis_real(1) + max(abs(slope.x), abs(slope.y)) / max(abs(slope.z), elvis_real(1e-30LF));
+    const elvis_real off = core_prediction_error(oblique * curvature, step) + oblique * noise;
+    const bool is_beyond = is_once && is_stepping && is_sound && core_is_near(oblique * curvature, step) &&
+                           slope.z < -core_height_change(motion, curvature, step + off) &&
+                           core_face_excess(face.is_triangle, next_s, next_r) > elvis_real(2) * off;
     const bool has_stopped = is_stepping && (is_there || !is_sound || !core_is_finite(step) || step > CORE_FACE_REACH ||
-                                             search.n_steps >= CORE_FACE_STEPS);
+                                             search.n_steps >= CORE_FACE_STEPS || !moves);
 
     const bool is_settled = is_stepping ? is_there && is_only : is_empty;
     const bool is_open = is_stepping ? has_stopped && !is_settled : !is_empty && !begins;
@@ -156,13 +171,11 @@ core_face_entry core_search_face(const core_traced_ray ray, uint element, elvis_
     const bool is_smallest = square.level >= CORE_SQUARE_LEVELS || (is_sound && bend < frame.xi_error.z);
     const bool is_left = is_settled || (is_open && is_smallest);
     search.n_evaluations += 1u;
-    search.square = is_left ? core_next_square(search.square) : is_open ? 4u * search.square : search.square;
+    search.square = is_beyond ? CORE_NO_SQUARE : is_left ? core_next_square(search.square) : is_open ? 4u * search.square : search.square;
     search.n_steps = is_left || is_open ? 0u : search.n_steps + 1u;
     search.is_single = is_single;
-    // The mapping is known in the element only.
-    const elvis_real outside = face.is_triangle ? elvis_real(0.5LF) * max(next_s + next_r - elvis_real(1), elvis_real(0)) : elvis_real(0);
-    search.s = clamp(next_s - outside, elvis_real(0), elvis_real(1));
-    search.r = clamp(next_r - outside, elvis_real(0), face.is_triangle ? elvis_real(1) - search.s : elvis_real(1));
+    search.s = inner_s;
+    search.r = inner_r;
     const bool is_done = (is_found && is_once) || search.square == CORE_NO_SQUARE;
     const bool is_given_up = !is_done && search.n_evaluations >= CORE_FACE_EVALUATIONS;
     if (is_done || is_given_up) {
@@ -170,6 +183,6 @@ core_face_entry core_search_face(const core_traced_ray ray, uint element, elvis_
         search.square = CORE_WHOLE_FACE;
         search.n_evaluations = search.n_steps = 0u;
     }
-    return core_face_entry(is_found, (is_open && is_smallest) || is_given_up, root,
+    return core_face_entry(is_found, (is_open && is_smallest && !is_beyond) || is_given_up, root,
                            (left + frame.xi_error.z) / max(-slope.z, elvis_real(1e-30LF)));
 }
