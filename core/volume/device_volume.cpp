@@ -204,29 +204,39 @@ void DeviceVolume::select(const FieldSelection& selection) {
         }
     }
     if (is_geometry_changed) {
-        for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
-            if (m_classes[element_class].elements) {
-                const ClassInfo& info = m_volume.classes()[element_class];
-                const std::size_t n_origins = m_classes[element_class].origins ? 3 * info.n_elements : 0;
-                const ElementBoxes said =
-                    said_boxes(m_classes[element_class].hierarchy, info.n_elements,
-                               std::span<const double>(m_origins).subspan(3 * info.first_element, n_origins), m_centre);
-                ClassData& data = m_classes[element_class];
-                data.curvatures = write_elements(m_device, m_volume, element_class, instance(element_class), m_precision, said,
-                                                 *data.elements);
-                std::vector<double> numbers;
-                numbers.reserve(2 * info.n_elements);
-                for (std::uint64_t element = 0; element < info.n_elements; ++element) {
-                    numbers.insert(numbers.end(),
-                                   {data.curvatures.numbers[element], data.curvatures.are_proven[element] ? 1.0 : 0.0});
-                }
-                data.curvature_records->write_reals(0, numbers);
-            }
-        }
+        write_elements();
         ++m_geometry_version;
     }
     m_has_elements = true;
     m_upload_milliseconds = is_changed || is_geometry_changed ? milliseconds_since(start) : m_upload_milliseconds;
+}
+
+void DeviceVolume::write_elements() {
+    std::vector<std::unique_ptr<ElementWriter>> writers(m_classes.size());
+    for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
+        if (m_classes[element_class].elements) {
+            writers[element_class] =
+                std::make_unique<ElementWriter>(m_device, m_volume, element_class, instance(element_class), m_precision);
+        }
+    }
+    for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
+        if (!writers[element_class]) {
+            continue;
+        }
+        ClassData& data = m_classes[element_class];
+        const ClassInfo& info = m_volume.classes()[element_class];
+        const std::size_t n_origins = data.origins ? 3 * info.n_elements : 0;
+        const ElementBoxes said =
+            said_boxes(data.hierarchy, info.n_elements,
+                       std::span<const double>(m_origins).subspan(3 * info.first_element, n_origins), m_centre);
+        data.curvatures = writers[element_class]->write(said, *data.elements);
+        std::vector<double> numbers;
+        numbers.reserve(2 * info.n_elements);
+        for (std::uint64_t element = 0; element < info.n_elements; ++element) {
+            numbers.insert(numbers.end(), {data.curvatures.numbers[element], data.curvatures.are_proven[element] ? 1.0 : 0.0});
+        }
+        data.curvature_records->write_reals(0, numbers);
+    }
 }
 
 /** Fills what the slot lacks; returns whether there was something. */

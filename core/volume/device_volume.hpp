@@ -101,6 +101,8 @@ public:
     const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }
     /** Of the mapping of each element of the class (shaders/element/prediction.glsl), once a field is selected. */
     std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures.numbers; }
+    /** ElementCurvatures::bends. */
+    std::span<const ElementBends> bends(std::uint32_t element_class) const { return m_classes[element_class].curvatures.bends; }
 
     /**
      * Makes bounds of the selected fields and their derivatives in every element, if they are not there yet. For kernels that
@@ -149,6 +151,7 @@ private:
 
     void read_bounds(const std::optional<std::array<double, 6>>& bounds_of_whole);
     void build_class(std::uint32_t element_class, const std::vector<double>& boxes);
+    void write_elements();
     bool provide(const FieldSlot& wanted, Slot& slot);
     bool provide(std::uint32_t index, const Slot& slot, PluginBuffer& buffer);
     void fill(std::uint32_t index, const Slot& slot, PluginBuffer& buffer);

@@ -41,6 +41,8 @@ layout(push_constant) uniform core_parameters {
 #endif
 #include "segments/source_ray.glsl"
 #include "arithmetic/driver_limit.glsl"
+// In elements that are bent much, faces are searched instead.
+#define CORE_WITHOUT_BENDS
 #include "segments/segment.glsl"
 #include "segments/start_bounds.glsl"
 #include "arithmetic/count.glsl"

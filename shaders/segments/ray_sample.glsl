@@ -130,7 +130,7 @@ bool core_sample_is_enough(const core_ray_sample result, elvis_real span, elvis_
 }
 
 // One evaluation.
-core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_real curvature, inout core_follower follower) {
+core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_real element_curvature, inout core_follower follower) {
     core_ray_sample result;
     elvis_real x = follower.x, y = follower.y, z = follower.z;
     core_project(x, y, z);
@@ -141,6 +141,7 @@ core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_
     const elvis_vec3 shift = CORE_CENTRE - elvis_origin(element), way = follower.at * ray.direction;
     result.frame = core_frame_at(position, jacobian,
                                  ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(way)));
+    const elvis_real curvature = core_curvature_at(element, result.frame, element_curvature);
     const elvis_vec3 newton = core_to_xi(result.frame, ((shift - position) + ray.origin) + way);
     result.w = core_to_xi(result.frame, ray.direction);
     const elvis_vec3 found = xi + newton;
@@ -182,9 +183,9 @@ core_ray_sample core_sample_predicted(const core_segment segment, elvis_real at,
     core_ray_sample result;
     result.w = core_slope_of(segment.anchor);
     const elvis_real speed = core_max_norm(result.w), step = segment.newton_step + abs(at - segment.anchor.t) * speed;
-    const elvis_real off = core_prediction_error(segment.curvature, step);
+    const elvis_real off = core_prediction_error(segment.anchor_curvature, step);
     core_sample_field(segment.element, core_predicted(segment.anchor, at), off, segment.noise, step, step + abs(span) * speed,
-                      segment.curvature, span, result);
+                      segment.anchor_curvature, span, result);
     const bool is_enough = core_sample_is_enough(result, span, enough);
     const bool has_converged = result.is_known && off <= elvis_real(3) * result.rounding;
     result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;

@@ -14,6 +14,7 @@
 // core_links.
 
 #include "element/linearization.glsl"
+#include "segments/local_curvature.glsl"
 #include "segments/ray_model.glsl"
 #include "segments/ray_point.glsl"
 #include "segments/traced_ray.glsl"
@@ -81,7 +82,8 @@ struct core_segment {
     // Length of the step that led to it, and rounding of its coordinates.
     elvis_real newton_step;
     elvis_vec3 noise;
-    elvis_real curvature;
+    // Of the element, and for predictions from the anchor.
+    elvis_real curvature, anchor_curvature;
     uint iterations;
 };
 
@@ -130,6 +132,7 @@ bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begi
     segment.is_estimated = !is_linearized || curvature > CORE_ASSUMED_CURVATURE;
     segment.has_failed = segment.is_touched = false;
     segment.curvature = segment.is_estimated ? CORE_ASSUMED_CURVATURE : curvature;
+    segment.anchor_curvature = segment.curvature;
     segment.is_followed = false;
     segment.is_assumed = ELVIS_HAS_INSIDE == 0 && is_entered && !is_sure && clip.possible_from <= begin;
     segment.is_inside = segment.is_assumed || (is_sure && (is_entered || clip.sure_from <= begin));
@@ -176,6 +179,9 @@ core_ray_evaluation core_evaluate_ray(const core_traced_ray ray, uint element, e
 // surely no other one (Kantorovich).
 elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / curvature; }
 
+// Of an interval that an evaluation in its middle surely bounds (core_is_near), with something to spare.
+elvis_real core_sure_span(elvis_real curvature) { return elvis_real(0.33LF) / curvature; }
+
 // In elements so curved that a point outside of them may be taken for the ray's, the ray is followed from where it enters: there its
 // point lies in the element, and is found by Newton's method from one start after the other. False if it is not. `slack`: by how much of
 // the parameter it may be off.
@@ -196,6 +202,8 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
         segment.iterations += 1u;
         is_found = is_there && is_in;
         segment.anchor = core_either(is_found, core_ray_point_at(segment.anchor.t, at, slope), segment.anchor);
+        const elvis_real curvature = core_curvature_at(segment.element, here.frame, segment.curvature);
+        segment.anchor_curvature = is_found ? curvature : segment.anchor_curvature;
         // From the centroid, then from near the corners.
         const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTER_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
@@ -212,7 +220,7 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
     segment.is_assumed = is_found;
     segment.begin = is_found ? segment.anchor.t : segment.begin;
     segment.last = max(segment.last, segment.begin);
-    segment.end = is_found ? min(segment.last, segment.anchor.t + core_follow_span(segment.curvature) / rate) : segment.end;
+    segment.end = is_found ? min(segment.last, segment.anchor.t + core_sure_span(segment.anchor_curvature) / rate) : segment.end;
     segment.next = is_found ? elvis_real(0.5LF) * (segment.begin + segment.end) : segment.next;
     return is_found;
 }
@@ -232,7 +240,7 @@ core_ray_clip core_clip_interval(const core_ray_evaluation here, elvis_real curv
                                  elvis_vec3 predicted, elvis_vec3 xi, const core_segment segment) {
     // Far from a curved element the bound says nothing; there, two predictions that agree do, as in element/newton.glsl.
     const elvis_real along = core_max_norm(here.model.slope) * (segment.end - segment.begin);
-    const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - predicted) + curvature * along * along;
+    const elvis_real agreed = elvis_real(8) * core_max_norm(here.model.at - predicted) + segment.curvature * along * along;
     const elvis_real distance = sqrt(bound / max(curvature, elvis_real(1e-30LF)));
     const bool is_agreed = xi != predicted && !segment.is_inside && segment.iterations > 1u;
     core_ray_clip clip =
@@ -253,11 +261,14 @@ void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elv
     segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
     segment.newton_step = is_anchor ? core_model_step(model, model.anchor) : segment.newton_step;
     segment.noise = is_anchor ? model.noise : segment.noise;
+    segment.anchor_curvature = is_anchor ? curvature : segment.anchor_curvature;
     const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
-    const elvis_real follow_end = max(segment.anchor.t + core_follow_span(segment.curvature) / rate, segment.begin + tolerance);
+    const elvis_real follow_end =
+        max(min(segment.anchor.t + core_follow_span(segment.anchor_curvature) / rate,
+                segment.begin + core_sure_span(segment.anchor_curvature) / rate), segment.begin + tolerance);
     const bool is_too_far = segment.is_followed && follow_end < segment.end;
     segment.end = is_too_far ? follow_end : segment.end;
-    segment.next = is_too_far ? clamp(segment.next, segment.begin, segment.end) : segment.next;
+    segment.next = is_too_far ? elvis_real(0.5LF) * (segment.begin + segment.end) : segment.next;
 }
 
 // One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `is_active`: false for lanes that have nothing to do.
@@ -269,7 +280,8 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     const elvis_vec3 xi = elvis_vec3(x, y, z);
     core_ray_evaluation here = core_evaluate_ray(ray, element, xi, segment.next);
     segment.iterations += 1u;
-    const elvis_real curvature = core_assumed_curvature(segment.curvature, segment.iterations);
+    const elvis_real curvature =
+        core_assumed_curvature(core_curvature_at(element, here.frame, segment.curvature), segment.iterations);
     segment.is_estimated = segment.is_estimated || segment.iterations > CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
     const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
     const elvis_real bound = core_prediction_error(curvature, step);

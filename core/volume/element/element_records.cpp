@@ -9,6 +9,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace elvis {
 
@@ -65,7 +66,8 @@ void check_box(const RuntimeVolume& volume, std::uint64_t element, std::span<con
 bool is_proven(float curvature) { return curvature >= 0 && curvature < unknown_curvature; }
 
 /** What shaders/element/linearize.comp expects. */
-std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& volume, const ClassInfo& info) {
+std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& volume, const ClassInfo& info,
+                                     std::vector<ElementBends>& bends) {
     if (info.is_affine) {
         return std::vector<float>(info.n_elements, 0.0F);
     }
@@ -78,22 +80,22 @@ std::vector<float> proven_curvatures(const Device& device, const RuntimeVolume& 
         volume.evaluate_mapping(element, xi, positions, jacobians);
     };
     std::vector<float> curvatures(info.n_elements);
+    bends.resize(info.n_elements);
     in_parts(
         device.background(), info.n_elements, elements_a_thread,
         [&](std::uint64_t first, std::uint64_t count) {
-            bounder(mapping, info.first_element + first, std::span(curvatures).subspan(first, count));
+            bounder(mapping, info.first_element + first, std::span(curvatures).subspan(first, count),
+                    std::span(bends).subspan(first, count));
         },
         [&] { device.check_task(); });
+    if (std::ranges::all_of(curvatures, [](float curvature) { return curvature <= followed_curvature; })) {
+        bends = {};
+    }
     return curvatures;
 }
 
-} // namespace
-
-ElementCurvatures write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                                 const SnippetInstance& instance, Precision precision, const ElementBoxes& said,
-                                 RecordBuffer& records) {
-    const ClassInfo& info = volume.classes()[element_class];
-    const std::vector<float> proven = proven_curvatures(device, volume, info);
+KernelRequest linearize_request(std::uint32_t element_class, const SnippetInstance& instance, Precision precision,
+                                std::span<const float> proven) {
     const bool is_measured = !std::ranges::all_of(proven, is_proven);
     KernelRequest request;
     request.name = "linearize of element class " + std::to_string(element_class);
@@ -104,39 +106,50 @@ ElementCurvatures write_elements(const Device& device, const RuntimeVolume& volu
     request.defines = {{"CORE_IS_MEASURED", is_measured ? "1" : "0"}};
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
     request.push_constant_bytes = sizeof(Parameters);
-    const ComposedKernel kernel(device, request);
-    const std::uint64_t largest = std::min(block, info.n_elements);
-    const Buffer output(device, largest * words_an_element * sizeof(std::uint32_t)), input(device, largest * sizeof(float));
+    return request;
+}
+
+} // namespace
+
+ElementWriter::ElementWriter(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
+                             const SnippetInstance& instance, Precision precision)
+    : m_device(device), m_volume(volume), m_info(volume.classes()[element_class]),
+      m_proven(proven_curvatures(device, volume, m_info, m_curvatures.bends)),
+      m_kernel(device, linearize_request(element_class, instance, precision, m_proven)) {}
+
+ElementCurvatures ElementWriter::write(const ElementBoxes& said, RecordBuffer& records) {
+    const std::uint64_t largest = std::min(block, m_info.n_elements);
+    const Buffer output(m_device, largest * words_an_element * sizeof(std::uint32_t));
+    const Buffer input(m_device, largest * sizeof(float));
     const std::array<const Buffer*, 2> bindings = {&output, &input};
 
-    ElementCurvatures curvatures;
-    curvatures.numbers.reserve(info.n_elements);
-    curvatures.are_proven.reserve(info.n_elements);
+    m_curvatures.numbers.reserve(m_info.n_elements);
+    m_curvatures.are_proven.reserve(m_info.n_elements);
     std::vector<std::int64_t> numbers;
     std::vector<std::uint32_t> words;
-    for (std::uint64_t first = 0; first < info.n_elements; first += block) {
-        const auto count = static_cast<std::uint32_t>(std::min(block, info.n_elements - first));
+    for (std::uint64_t first = 0; first < m_info.n_elements; first += block) {
+        const auto count = static_cast<std::uint32_t>(std::min(block, m_info.n_elements - first));
         const Parameters parameters{static_cast<std::uint32_t>(first), count};
-        input.write_items(std::span(proven).subspan(first, count));
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
+        input.write_items(std::span<const float>(m_proven).subspan(first, count));
+        m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
         const auto computed = output.read_items<std::uint32_t>(std::size_t{count} * words_an_element);
         numbers.resize(count);
-        volume.element_numbers(info.first_element + first, count, numbers);
+        m_volume.element_numbers(m_info.first_element + first, count, numbers);
         words.clear();
         for (std::size_t element = 0; element < count; ++element) {
             words.push_back(static_cast<std::uint32_t>(numbers[element]));
             const auto from = computed.begin() + static_cast<std::ptrdiff_t>(element * words_an_element);
             words.insert(words.end(), from, from + element_record_size - 1);
-            curvatures.numbers.push_back(std::bit_cast<float>(from[curvature_at]));
-            curvatures.are_proven.push_back(is_proven(proven[first + element]));
-            check_box(volume, info.first_element + first + element,
+            m_curvatures.numbers.push_back(std::bit_cast<float>(from[curvature_at]));
+            m_curvatures.are_proven.push_back(is_proven(m_proven[first + element]));
+            check_box(m_volume, m_info.first_element + first + element,
                       std::span(said.boxes).subspan(6 * (first + element)).first<6>(),
                       std::span(said.origins).subspan(3 * (first + element)).first<3>(), said.world_origin,
                       std::span(computed).subspan(element * words_an_element + box_at).first<6>());
         }
         records.write_uints(first, words);
     }
-    return curvatures;
+    return std::move(m_curvatures);
 }
 
 } // namespace elvis

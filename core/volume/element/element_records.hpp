@@ -6,6 +6,7 @@
 
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/shader/composer.hpp>
+#include <core/volume/element/mapping_curvature.hpp>
 #include <core/vulkan/buffer.hpp>
 
 #include <array>
@@ -29,14 +30,29 @@ struct ElementCurvatures {
     std::vector<float> numbers;
     /** Else it is measured. */
     std::vector<bool> are_proven;
+    /** Empty if all curvatures are small, or nothing is known of any element. */
+    std::vector<ElementBends> bends;
 };
 
 /**
- * Writes the records of a class; the linearizations are computed on the device with the class's snippet. An element that was
- * seen outside of its box is the plugin's fault: an error.
+ * Writes the records of a class; the linearizations are computed on the device with the class's snippet. Its kernel is compiled
+ * by other threads: make the writers of all classes before the first one writes.
  */
-ElementCurvatures write_elements(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
-                                 const SnippetInstance& instance, Precision precision, const ElementBoxes& said,
-                                 RecordBuffer& records);
+class ElementWriter {
+public:
+    ElementWriter(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
+                  const SnippetInstance& instance, Precision precision);
+
+    /** An element that was seen outside of its box is the plugin's fault: an error. */
+    ElementCurvatures write(const ElementBoxes& said, RecordBuffer& records);
+
+private:
+    const Device& m_device;
+    const RuntimeVolume& m_volume;
+    const ClassInfo& m_info;
+    ElementCurvatures m_curvatures;
+    std::vector<float> m_proven;
+    ComposedKernel m_kernel;
+};
 
 } // namespace elvis

@@ -116,6 +116,16 @@ float rounded_up(double curvature) {
                                          : unknown_curvature;
 }
 
+/** Of J0, its inverse, and the s_m. */
+ElementBends bends_of(const Matrix3& jacobian, const Matrix3& inverse, const Vector3& most) {
+    ElementBends bends{};
+    for (std::size_t entry = 0; entry < 9 && is_finite(inverse); ++entry) {
+        const std::size_t m = entry / 3, i = entry % 3;
+        bends[entry] = static_cast<float>(most[m] * jacobian[3 * i + m]);
+    }
+    return bends;
+}
+
 /** Of the part in which the Jacobian changes by 2 curvature radius at most. */
 double bound_on(double curvature, double radius) {
     const double change = 2 * curvature * radius;
@@ -199,16 +209,17 @@ bool CurvatureBounder::can_bound(const ClassInfo& element_class) {
 CurvatureBounder::CurvatureBounder(elvis_shape shape, std::span<const std::uint32_t, 3> order)
     : m_shape(shape), m_derivatives(shape, order) {}
 
-void CurvatureBounder::operator()(const ElementMapping& mapping, std::uint64_t first, std::span<float> curvatures) const {
+void CurvatureBounder::operator()(const ElementMapping& mapping, std::uint64_t first, std::span<float> curvatures,
+                                  std::span<ElementBends> bends) const {
     Group group(mapping, m_derivatives);
     for (std::size_t done = 0; done < curvatures.size(); done += lanes) {
         group.first = first + done;
         group.count = std::min(lanes, curvatures.size() - done);
-        bound_group(group, curvatures.subspan(done, group.count));
+        bound_group(group, curvatures.subspan(done, group.count), bends.subspan(done, group.count));
     }
 }
 
-void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures) const {
+void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures, std::span<ElementBends> bends) const {
     const std::size_t n_nodes = m_derivatives.n_nodes(), polynomial = m_derivatives.polynomial_at();
     for (std::size_t lane = 0; lane < group.count; ++lane) {
         std::vector<double>& x = group.positions;
@@ -221,10 +232,10 @@ void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures) co
     }
     m_derivatives.interpolate<3 * lanes>(group.numbers.data());
 
-    std::array<Matrix3, lanes> inverses{};
+    std::array<Matrix3, lanes> jacobians{}, inverses{};
     const std::span<const double> weights = m_derivatives.gradient_weights();
     for (std::size_t lane = 0; lane < group.count; ++lane) {
-        Matrix3 jacobian{};
+        Matrix3& jacobian = jacobians[lane];
         for (std::size_t slot = 0; slot < n_nodes; ++slot) {
             for (std::size_t entry = 0; entry < 9; ++entry) {
                 jacobian[entry] += group.at(polynomial + slot, entry / 3, lane) * weights[3 * slot + entry % 3];
@@ -248,14 +259,16 @@ void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures) co
         }
         return h;
     };
-    std::array<double, lanes> largest{};
+    std::array<std::array<double, lanes>, 3> rows{};
     for (std::size_t coefficient = 0; coefficient < m_derivatives.n_coefficients(); ++coefficient) {
         for (std::size_t i = 0; i < 3; ++i) {
-            raise_to_norm<lanes>(entry_at(coefficient, i), largest.data());
+            raise_to_norm<lanes>(entry_at(coefficient, i), rows[i].data());
         }
     }
     for (std::size_t lane = 0; lane < group.count; ++lane) {
-        const double curvature = 0.5 * largest[lane], bound = bound_on(curvature, extent(m_shape));
+        const Vector3 most{rows[0][lane], rows[1][lane], rows[2][lane]};
+        bends[lane] = bends_of(jacobians[lane], inverses[lane], most);
+        const double curvature = 0.5 * std::max({most[0], most[1], most[2]}), bound = bound_on(curvature, extent(m_shape));
         if (!is_finite(inverses[lane]) || bound <= close_enough * curvature) {
             curvatures[lane] = is_finite(inverses[lane]) ? rounded_up(bound) : unknown_curvature;
             continue;

@@ -11,6 +11,11 @@
  * changes by 2 C_a r relative to J(a), so that (Neumann's series) C <= C_a / (1 - 2 C_a r) there. Parts are halved until this
  * is close.
  *
+ * At a point a that is known, the rows of J0^-1 D^2x tell more, with J0 the Jacobian at the centroid, and s_m the most that
+ * its row m makes of u and v:
+ *
+ *     1/2 sup over b and |u| = |v| = 1 of |J(a)^-1 D^2x(b)(u, v)| <= 1/2 max_i sum_m |J(a)^-1 J0|_im s_m.
+ *
  * It is that of the polynomial through positions as they are evaluated. The mapping differs from it by the rounding of
  * positions, which all who compare positions allow for.
  */
@@ -19,6 +24,7 @@
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/volume/element/second_derivatives.hpp>
 
+#include <array>
 #include <functional>
 #include <span>
 
@@ -32,6 +38,12 @@ using ElementMapping = std::function<void(std::uint64_t element, std::span<const
  * shaders/element/prediction.glsl. */
 inline constexpr float unknown_curvature = 1e9F;
 
+/** Rays are followed through elements with larger ones: CORE_FOLLOWED_CURVATURE of shaders/segments/segment.glsl. */
+inline constexpr float followed_curvature = 0.25F;
+
+/** The vectors s_m J0 e_m, one after the other; all zero where nothing is known of them. */
+using ElementBends = std::array<float, 9>;
+
 /** Of one shape and order. Any thread may call. */
 class CurvatureBounder {
 public:
@@ -40,14 +52,15 @@ public:
 
     CurvatureBounder(elvis_shape shape, std::span<const std::uint32_t, 3> order);
 
-    /** Of elements from `first` on, one number each. */
-    void operator()(const ElementMapping& mapping, std::uint64_t first, std::span<float> curvatures) const;
+    /** Of elements from `first` on. */
+    void operator()(const ElementMapping& mapping, std::uint64_t first, std::span<float> curvatures,
+                    std::span<ElementBends> bends) const;
 
 private:
     struct Group;
     struct Element;
 
-    void bound_group(Group& group, std::span<float> curvatures) const;
+    void bound_group(Group& group, std::span<float> curvatures, std::span<ElementBends> bends) const;
     /** `shown`: C_a of some point. */
     double bound_in_parts(const Element& element, double shown) const;
 
