@@ -71,8 +71,8 @@ struct core_evaluation {
 #define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
 #endif
 
-// How far from xi points of the octant are at most, or nothing, where that need not be asked: in octants that are bent little, a second
-// solution of a prediction lies outside (isosurface/octant_mapping.glsl).
+// How far from xi points of the octant are at most; 0 where that need not be asked, because a second solution of a prediction lies outside
+// (isosurface/octant_mapping.glsl).
 elvis_real core_farthest_of(core_interval_search search, elvis_vec3 xi) {
     const bool is_bent = search.bent_code != CORE_NO_CODE;
     const uint code = is_bent ? search.bent_code : 0u;

@@ -45,10 +45,8 @@ vec3 core_octant_middle(uint code) {
     return (2.0 * place + 1.0) * core_octant_half_side(code) - 1.0;
 }
 
-// Whether its linear model leaves out a quarter of its half side or more, or there is none.
-bool core_is_bent(core_octant octant) {
-    return octant.size == 0.0 || octant.size > 1.2501 * core_octant_half_side(octant.code);
-}
+// Whether it is bent so much that there is no linear model.
+bool core_is_bent(core_octant octant) { return octant.size == 0.0; }
 
 #ifdef elvis_fetch4_core_octants
 
