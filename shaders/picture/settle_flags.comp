@@ -13,6 +13,8 @@ layout(push_constant) uniform core_parameters {
 };
 
 #define CORE_N_FLAGS 16u
+// Pixels of an invocation, a work group apart: sums of many pixels take few atomic additions.
+#define CORE_PIXELS_EACH 8u
 
 uint core_settled(uint flags) {
     // The upper half: of surfaces that are not seen there (picture/merge.comp).
@@ -22,28 +24,40 @@ uint core_settled(uint flags) {
     return flags & ((flags & CORE_FLAG_MESH_LINE) != 0u ? ~CORE_FLAG_MESH_UNDECIDED : 0xffffu);
 }
 
-void core_add(uint index, bool is_met) {
-    const uint n = subgroupAdd(is_met ? 1u : 0u);
+void core_add(uint index, uint n_met) {
+    const uint n = subgroupAdd(n_met);
     if (n > 0u && subgroupElect()) {
         atomicAdd(core_counts[index], n);
     }
 }
 
 void main() {
-    const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    core_mark mark = core_mark(0u, 0u);
-    if (pixel < core_n_pixels) {
-        mark = core_marks[pixel];
+    const uint item = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x, lane = item % CORE_GROUP_SIZE;
+    const uint first = (item - lane) * CORE_PIXELS_EACH + lane;
+    uint flags[CORE_PIXELS_EACH];
+    uint met = 0u, n_hits = 0u;
+    for (uint i = 0u; i < CORE_PIXELS_EACH; ++i) {
+        const uint pixel = first + i * CORE_GROUP_SIZE;
+        core_mark mark = core_mark(0u, 0u);
+        if (pixel < core_n_pixels) {
+            mark = core_marks[pixel];
+        }
+        flags[i] = core_settled(mark.flags);
+        if (flags[i] != mark.flags) {
+            core_marks[pixel].flags = flags[i];
+        }
+        met |= flags[i];
+        n_hits += mark.owner >> CORE_OWNER_BITS != 0u ? 1u : 0u;
     }
-    const uint flags = core_settled(mark.flags);
-    if (flags != mark.flags) {
-        core_marks[pixel].flags = flags;
-    }
-    core_add(CORE_N_FLAGS, mark.owner >> CORE_OWNER_BITS != 0u);
-    uint left = subgroupOr(flags);
+    core_add(CORE_N_FLAGS, n_hits);
+    uint left = subgroupOr(met);
     while (left != 0u) {
         const uint bit = uint(findLSB(left));
-        core_add(bit, (flags >> bit & 1u) != 0u);
+        uint n = 0u;
+        for (uint i = 0u; i < CORE_PIXELS_EACH; ++i) {
+            n += flags[i] >> bit & 1u;
+        }
+        core_add(bit, n);
         left &= left - 1u;
     }
 }

@@ -11,6 +11,9 @@ struct Parameters {
     std::uint32_t n_pixels, groups_x;
 };
 
+/** Pixels of an invocation, as picture/settle_flags.comp has it. */
+constexpr std::uint32_t pixels_each = 8;
+
 /** Of the kernel's counts: one for each flag, and pixels that show a surface. */
 constexpr std::size_t n_flags = 16, hits = n_flags, n_counts = n_flags + 1;
 
@@ -24,7 +27,8 @@ void FlagsPass::settle(const Layer& layer) const {
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
     const Parameters parameters{n_pixels, pixel_groups_x};
-    dispatch_pixels(m_kernel, {&layer.marks, &m_counts}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
+    dispatch_pixels(m_kernel, {&layer.marks, &m_counts}, std::as_bytes(std::span(&parameters, 1)),
+                    divided_up(n_pixels, pixels_each * pixel_group_size) * pixel_group_size);
 }
 
 void FlagsPass::add(std::span<const std::uint32_t> found, FrameCounts& counts) {
