@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include <apps/elvis/view/model/scene.hpp>
 #include <apps/elvis/view/model/volume_facts.hpp>
+#include <apps/elvis/view/scene/scene.hpp>
 #include <apps/serve/answers/histograms.hpp>
 #include <apps/serve/session/scene_edit.hpp>
 
@@ -19,7 +19,6 @@
 
 namespace elvis::serve {
 
-using view::Camera;
 using view::Scene;
 
 struct Served {

@@ -1,5 +1,5 @@
 
-#include <apps/elvis/view/model/first_scene.hpp>
+#include <apps/elvis/view/scene/first_scene.hpp>
 #include <apps/serve/network/connections.hpp>
 #include <apps/serve/network/token.hpp>
 #include <apps/serve/session/memory_limit.hpp>

@@ -55,7 +55,7 @@ std::string model_glsl(const Expression& expression, const ExpressionClass& elem
 /** elvis_real core_shown_error(uint element, elvis_vec3 xi): about what the value loses by rounding, to first order. */
 std::string error_glsl(const Expression& expression, const ExpressionClass& element_class);
 /**
- * `origin`: what its coordinates are relative to. Constants next to coordinates are put together with it in double precision,
+ * `origin`: what its coordinates are relative to. Constants next to coordinates are put together with it in extended precision,
  * so that x - 10000.3 keeps its digits near an origin at 10000.
  */
 std::string implicit_glsl(const Expression& expression, const std::array<double, 3>& origin = {});

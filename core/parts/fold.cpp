@@ -1,9 +1,9 @@
 #include <core/parts/fold.hpp>
 
+#include <core/camera/camera_ray.hpp>
 #include <core/render/bands.hpp>
 #include <core/render/picture/count_pixels.hpp>
 #include <core/render/picture/frame_read.hpp>
-#include <core/scene/camera_ray.hpp>
 
 #include <algorithm>
 #include <array>

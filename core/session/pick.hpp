@@ -5,9 +5,9 @@
 #pragma once
 
 #include <core/base/vector3.hpp>
+#include <core/camera/camera_ray.hpp>
 #include <core/probe/probe.hpp>
 #include <core/render/renderer.hpp>
-#include <core/scene/camera_ray.hpp>
 #include <core/scene/scene.hpp>
 
 #include <cstdint>

@@ -1,4 +1,6 @@
 // Flags of pixels as callers know them (core/scene/buffers.md), and how many pixels have each.
+//
+// An invocation has CORE_PIXELS_EACH pixels, a work group apart: sums of many pixels take few atomic additions.
 
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
@@ -13,8 +15,6 @@ layout(push_constant) uniform core_parameters {
 };
 
 #define CORE_N_FLAGS 16u
-// Pixels of an invocation, a work group apart: sums of many pixels take few atomic additions.
-#define CORE_PIXELS_EACH 8u
 
 uint core_settled(uint flags) {
     // The upper half: of surfaces that are not seen there (picture/merge.comp).

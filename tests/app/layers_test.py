@@ -9,7 +9,7 @@ clients = ["apps/elvis/view", "apps/serve", "apps/paraview", "apps/python", "app
            "apps/elvis/command_probe.cpp", "apps/elvis/command_serve.cpp", "apps/elvis/command_view.cpp",
            "apps/elvis/library_context.cpp", "apps/elvis/open_volume.hpp"]
 # Of small things that know nothing of volumes and pictures.
-general = ("core/base/", "core/late_library/")
+general = ("core/base/", "core/camera/", "core/late_library/")
 # A window has a Vulkan surface of its own to show pictures in.
 of_window = (*general, "core/vulkan/")
 # Drawing in parts of a volume, and what many processes do together: the library has no word for it.

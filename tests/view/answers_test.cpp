@@ -1,8 +1,8 @@
 // The line probe and the table of numbers, without a window.
 
-#include <apps/elvis/view/model/items.hpp>
 #include <apps/elvis/view/model/line_probe.hpp>
 #include <apps/elvis/view/model/numbers.hpp>
+#include <apps/elvis/view/scene/items.hpp>
 
 #include <catch2/catch.hpp>
 

@@ -1,11 +1,11 @@
 // What the window does to a scene and its camera, without a window.
 
-#include <apps/elvis/view/model/camera_motion.hpp>
-#include <apps/elvis/view/model/handles.hpp>
 #include <apps/elvis/view/model/histogram.hpp>
 #include <apps/elvis/view/model/model.hpp>
 #include <apps/elvis/view/model/settings.hpp>
-#include <apps/elvis/view/model/value_scale.hpp>
+#include <apps/elvis/view/scene/camera_motion.hpp>
+#include <apps/elvis/view/scene/handles.hpp>
+#include <apps/elvis/view/scene/value_scale.hpp>
 
 #include <core/base/temporary_folder.hpp>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <apps/elvis/view/model/histogram.hpp>
-#include <apps/elvis/view/model/scene.hpp>
+#include <apps/elvis/view/scene/scene.hpp>
 
 #include <elvis/elvis.hpp>
 

@@ -31,7 +31,7 @@ double number(const json& message, const char* key, double least, double most) {
 
 double pixels(const json& message, const char* key) { return number(message, key, -most_pixels_away, most_pixels_away); }
 
-view::PicturePoint place_of(const json& message, const char* key) {
+PicturePoint place_of(const json& message, const char* key) {
     const auto numbers = message.at(key).get<std::vector<double>>();
     // What is no number compares false.
     if (numbers.size() != 2 || !std::ranges::all_of(numbers, [](double x) { return std::abs(x) <= most_pixels_away; })) {

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <apps/elvis/view/model/scene.hpp>
+#include <apps/elvis/view/scene/scene.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -19,7 +19,7 @@ inline constexpr std::uint32_t most_pixels_across = 8192;
 double number(const nlohmann::json& message, const char* key, double least, double most);
 /** A coordinate in the picture, or a movement. */
 double pixels(const nlohmann::json& message, const char* key);
-view::PicturePoint place_of(const nlohmann::json& message, const char* key);
+PicturePoint place_of(const nlohmann::json& message, const char* key);
 Vector3 vector_of(const nlohmann::json& message, const char* key);
 Vector3 vector_of(const nlohmann::json& numbers);
 /** Of "width" and "height". */

@@ -1,8 +1,8 @@
 #include "message_values.hpp"
 #include "session.hpp"
 
-#include <apps/elvis/view/model/camera_motion.hpp>
-#include <apps/elvis/view/model/handles.hpp>
+#include <apps/elvis/view/scene/camera_motion.hpp>
+#include <apps/elvis/view/scene/handles.hpp>
 
 #include <core/base/error.hpp>
 
@@ -16,13 +16,13 @@ using nlohmann::json;
 
 constexpr std::size_t most_marked_points = 16;
 
-json place_json(const Camera& camera, const view::PictureSize& size, const Vector3& point) {
-    const std::optional<view::PicturePoint> place = view::project(camera, size, point);
+json place_json(const Camera& camera, const PictureSize& size, const Vector3& point) {
+    const std::optional<PicturePoint> place = view::project(camera, size, point);
     return place ? json(*place) : json();
 }
 
 /** The direction in the picture in which a handle goes that moves along a line; null where it is seen from its end. */
-json way_json(const view::Handle& handle, const Camera& camera, const view::PictureSize& size) {
+json way_json(const view::Handle& handle, const Camera& camera, const PictureSize& size) {
     if (handle.kind != view::Handle::Kind::along) {
         return {};
     }
@@ -42,7 +42,7 @@ json way_json(const view::Handle& handle, const Camera& camera, const view::Pict
 
 Session::Json Session::overlay_json() const {
     const Camera camera = m_model.camera();
-    const view::PictureSize size = view::picture_size(m_model.scene());
+    const PictureSize size = view::picture_size(m_model.scene());
     Json handles = Json::array();
     if (const auto item = m_model.selection()) {
         for (const view::Handle& handle : view::handles_of(m_model.scene(), *item, m_served->facts)) {

@@ -2,7 +2,7 @@
 #include "message_values.hpp"
 #include "session.hpp"
 
-#include <apps/elvis/view/model/camera_motion.hpp>
+#include <apps/elvis/view/scene/camera_motion.hpp>
 
 #include <core/base/error.hpp>
 

@@ -2,6 +2,7 @@
 #include <core/render/picture/flags_pass.hpp>
 
 #include <bit>
+#include <string>
 
 namespace elvis {
 
@@ -11,17 +12,22 @@ struct Parameters {
     std::uint32_t n_pixels, groups_x;
 };
 
-/** Pixels of an invocation, as picture/settle_flags.comp has it. */
+/** Pixels of an invocation. */
 constexpr std::uint32_t pixels_each = 8;
 
 /** Of the kernel's counts: one for each flag, and pixels that show a surface. */
 constexpr std::size_t n_flags = 16, hits = n_flags, n_counts = n_flags + 1;
 
+KernelRequest settling_kernel(Precision precision) {
+    KernelRequest request = pixel_kernel("picture/settle_flags", precision, {.storage = 2}, sizeof(Parameters));
+    request.defines.emplace_back("CORE_PIXELS_EACH", std::to_string(pixels_each) + "u");
+    return request;
+}
+
 } // namespace
 
 FlagsPass::FlagsPass(const Device& device, Precision precision)
-    : m_kernel(device, pixel_kernel("picture/settle_flags", precision, {.storage = 2}, sizeof(Parameters))),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {}
+    : m_kernel(device, settling_kernel(precision)), m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
 void FlagsPass::settle(const Layer& layer) const {
     m_counts.fill(0);

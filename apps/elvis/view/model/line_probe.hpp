@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "handles.hpp"
 #include "volume_facts.hpp"
+#include <apps/elvis/view/scene/handles.hpp>
 
 #include <apps/elvis/answers/line_rows.hpp>
 #include <apps/elvis/answers/sample_curve.hpp>

@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "items.hpp"
 #include "volume_facts.hpp"
+#include <apps/elvis/view/scene/items.hpp>
 
 #include <cstdint>
 #include <optional>

@@ -1,5 +1,5 @@
 #include "numbers.hpp"
-#include "items.hpp"
+#include <apps/elvis/view/scene/items.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "scene.hpp"
 #include "volume_facts.hpp"
+#include <apps/elvis/view/scene/scene.hpp>
 
 #include <elvis/elvis.hpp>
 

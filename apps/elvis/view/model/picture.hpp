@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "camera.hpp"
+#include <apps/elvis/view/scene/camera.hpp>
 
 #include <elvis/elvis.hpp>
 #include <nlohmann/json.hpp>

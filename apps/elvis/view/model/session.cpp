@@ -1,5 +1,5 @@
 #include "session.hpp"
-#include "first_scene.hpp"
+#include <apps/elvis/view/scene/first_scene.hpp>
 
 #include <apps/elvis/render/output_endings.hpp>
 

@@ -9,8 +9,8 @@
 #include "numbers.hpp"
 #include "pick.hpp"
 #include "picture.hpp"
-#include "scene.hpp"
 #include "volume_facts.hpp"
+#include <apps/elvis/view/scene/scene.hpp>
 
 #include <core/base/cancel.hpp>
 

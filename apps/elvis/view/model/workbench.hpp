@@ -4,11 +4,11 @@
  */
 #pragma once
 
-#include "camera_motion.hpp"
 #include "conversion_task.hpp"
 #include "frame_worker.hpp"
 #include "histogram.hpp"
 #include "model.hpp"
+#include <apps/elvis/view/scene/camera_motion.hpp>
 
 #include <atomic>
 #include <chrono>

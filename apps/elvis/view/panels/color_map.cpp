@@ -1,6 +1,6 @@
 #include "panels.hpp"
 
-#include <apps/elvis/view/model/value_scale.hpp>
+#include <apps/elvis/view/scene/value_scale.hpp>
 
 #include <algorithm>
 #include <cmath>

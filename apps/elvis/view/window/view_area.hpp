@@ -6,7 +6,7 @@
 
 #include "presenter.hpp"
 #include "ui.hpp"
-#include <apps/elvis/view/model/handles.hpp>
+#include <apps/elvis/view/scene/handles.hpp>
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include <core/scene/camera_ray.hpp>
+#include <core/camera/camera_ray.hpp>
 
 #include <cmath>
 #include <numbers>

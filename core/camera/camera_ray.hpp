@@ -1,32 +1,15 @@
 /**
- * @file camera.hpp
- * Where a picture is seen from, and the rays through its places: the camera formulas of scenes.md.
+ * @file camera_ray.hpp
+ * The ray through a place of a picture, by the camera formulas of scenes.md.
  */
 #pragma once
 
 #include <core/base/vector3.hpp>
-
-#include <nlohmann/json.hpp>
+#include <core/camera/camera.hpp>
 
 #include <array>
 
-namespace elvis::view {
-
-struct Camera {
-    bool orthographic = false;
-    Vector3 eye{0, 0, 1}, look_at{}, up{0, 1, 0};
-    /** Full vertical angle, perspective only; degrees. */
-    double field_of_view = 60;
-    /** Of the picture in world units, orthographic only. */
-    double height = 1;
-    /** In pixels: added to column and row. */
-    std::array<double, 2> image_shift{};
-};
-
-/** Of a scene's "camera", which may say less. */
-Camera camera_of(const nlohmann::json& camera);
-/** Says all of it; what else is said stays. */
-void say_camera(nlohmann::json& said, const Camera& camera);
+namespace elvis {
 
 /** Pixels of the picture. */
 struct PictureSize {
@@ -59,4 +42,4 @@ struct Ray {
 
 Ray ray_through(const Camera& camera, const PictureSize& size, const PicturePoint& place);
 
-} // namespace elvis::view
+} // namespace elvis

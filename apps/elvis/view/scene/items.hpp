@@ -5,7 +5,7 @@
 #pragma once
 
 #include "scene.hpp"
-#include "volume_facts.hpp"
+#include <apps/elvis/view/model/volume_facts.hpp>
 
 #include <compare>
 #include <cstddef>
