@@ -255,7 +255,7 @@ TEST_CASE("A scene cuts with surfaces of every kind, and says what is wrong with
     };
     using Catch::Matchers::Contains;
     CHECK_THAT(fault(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1, "axis": [0, 0, 1]})"),
-               Contains("scene.json") && Contains("'surfaces[0].axis' means nothing for a surface of type \"sphere\""));
+               Contains("scene.json") && Contains("'surfaces[0].axis' means nothing where 'type' is \"sphere\""));
     CHECK_THAT(fault(R"({"type": "sphere", "center": [0, 0, 0]})"), Contains("'surfaces[0].radius' is missing"));
     CHECK_THAT(fault(R"({"type": "cylinder", "from": [0, 0, 0], "to": [0, 0, 0], "radius": 1})"), Contains("the same point"));
     CHECK_THAT(fault(R"x({"type": "implicit", "expression": "x + sine(y)"})x"), Contains("surfaces[0]") && Contains("sine"));

@@ -130,7 +130,7 @@ TEST_CASE("What is wrong with volume rendering in a scene is said in one line") 
         CHECK_THAT(fault(R"({"transfer": "x.json", )" + std::string(other) + "}"), Contains("means nothing beside 'transfer'"));
     }
     CHECK_THAT(fault(R"({"density": [[0, 1]], "opacity": [[0, 1]]})"),
-               Contains("'volume_rendering.opacity' stands beside 'density'"));
+               Contains("'volume_rendering.density' means nothing beside 'opacity'"));
     CHECK_THAT(fault(R"({"density": [[0, 1]], "unit_distance": 2})"), Contains("means nothing without 'opacity'"));
     CHECK_THAT(fault(R"({"density": [[0, 1], [1]]})"), Contains("'volume_rendering.density[1]' is [1]"));
     CHECK_THAT(fault(R"({"density": [[0, -1]]})"), Contains("'volume_rendering.density[0]' is -1; it must be at least 0"));
@@ -146,10 +146,10 @@ TEST_CASE("What is wrong with volume rendering in a scene is said in one line") 
     CHECK_THAT(fault(R"({"peaks": [{"value": 1, "width": 1, "density": 1, "colour": [1, 0, 0]}]})"),
                Contains("'volume_rendering.peaks[0].colour' is unknown; the nearest known key is 'color'"));
     CHECK_THAT(fault(R"({"integrator": "simpson"})"), Contains("'volume_rendering.integrator' is \"simpson\"; allowed are"));
-    CHECK_THAT(fault(R"({"step": 0.1})"), Contains("'volume_rendering.step' is of the integrators"));
+    CHECK_THAT(fault(R"({"step": 0.1})"), Contains("'volume_rendering.step' means nothing where 'integrator' is \"exact\""));
     CHECK_THAT(fault(R"({"integrator": "riemann", "step": 0})"), Contains("above 0"));
     CHECK_THAT(fault(R"({"integrator": "riemann", "tolerance": 0.1})"),
-               Contains("'volume_rendering.tolerance' is of the integrators"));
+               Contains("'volume_rendering.tolerance' means nothing where 'integrator' is"));
     CHECK_THAT(fault(R"({"tolerance": 0})"), Contains("above 0"));
     CHECK_THAT(fault(R"({"range_skipping": 1})"), Contains("true or false"));
     CHECK_THAT(fault(R"({"color_map": {"nam": "magma"}})"), Contains("'volume_rendering.color_map.nam' is unknown"));

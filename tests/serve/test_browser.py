@@ -1,48 +1,16 @@
 """The page of `elvis serve` in Chromium: load, orbit, add, pick, undo, reconnect, save."""
 import json
 import os
-import tempfile
-import time
 import unittest
 
 import browser
-from serving import Server
-from test_serve import make_volume, run
+from browser_case import SETTLED, BrowserCase
+from test_serve import run
 
 LEFT, UP, RIGHT, DELETE = "\ue012", "\ue013", "\ue014", "\ue017"
-SETTLED = "window.elvis && elvis.frame().stage === 'exact' && elvis.frame().revision >= elvis.state().revision"
 
 
-def missing():
-    return " and ".join(name for name, path in (("chromium", browser.CHROMIUM), ("chromium-driver", browser.DRIVER)) if not path)
-
-
-@unittest.skipIf(missing(), f"{missing()} not installed: the page is not tested in a browser")
-class BrowserTest(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="elvis-browser-test-")
-        self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.server = Server(make_volume(self.folder))
-        self.addCleanup(lambda: self.assertEqual(self.server.stop(), 0))
-        self.page = browser.Browser(self.folder)
-        self.addCleanup(self.page.close)
-        self.shots = os.environ.get("ELVIS_SCREENSHOTS", self.folder)
-
-    def shot(self, name):
-        self.page.screenshot(os.path.join(self.shots, name))
-
-    def n_items(self):
-        return self.page.run("return document.querySelectorAll('#items li').length")
-
-    def downloaded(self, name):
-        path = os.path.join(self.folder, name)
-        end = time.monotonic() + 30
-        while not os.path.exists(path) and time.monotonic() < end:
-            time.sleep(0.1)
-        with open(path, "rb") as file:
-            return file.read()
-
+class BrowserTest(BrowserCase):
     def test_a_visit(self):
         page = self.page
         page.open(self.server.url)
@@ -63,9 +31,7 @@ class BrowserTest(unittest.TestCase):
         page.wait(f"{SETTLED} && elvis.frame().revision > {revision}")
 
         n = self.n_items()
-        page.run("document.getElementById('new-item').value = 'Cut plane'")
-        page.click("#add")
-        page.wait(f"document.querySelectorAll('#items li').length === {n + 1}")
+        self.add("Cut plane")
         page.click("#items li:first-child input")
         page.wait(SETTLED)
         self.shot("plane.png")
@@ -150,9 +116,7 @@ class BrowserTest(unittest.TestCase):
         page.open(self.server.url)
         page.wait(SETTLED)
         scene = "elvis.state().scene"
-        page.run("document.getElementById('new-item').value = 'Cut plane'")
-        page.click("#add")
-        page.wait("document.querySelectorAll('#items li').length === 2")
+        self.add("Cut plane")
         page.click("#items li:first-child input")
         page.wait("document.querySelectorAll('.grip').length === 2")
         page.wait(SETTLED)
@@ -197,8 +161,7 @@ class BrowserTest(unittest.TestCase):
         self.assertEqual(page.run("return document.activeElement.getAttribute('aria-label')"), "Upper end of the colours")
 
         # The transfer function: points are made, moved and removed.
-        page.run("document.getElementById('new-item').value = elvis.state().addable.find((item) => item.name.startsWith('Volume')).name")
-        page.click("#add")
+        self.add("Volume")
         page.wait("document.querySelector('.transfer')")
         density = f"{scene}.volume_rendering.density"
         self.by_label("own density")
@@ -216,12 +179,13 @@ class BrowserTest(unittest.TestCase):
         self.shot("transfer.png")
 
         # Light and annotation.
-        page.run("document.getElementById('new-item').value = elvis.state().addable.find((item) => item.name.startsWith('Point light')).name")
-        page.click("#add")
+        self.add("Point light")
         page.wait(f"{scene}.lighting.lights")
         page.run("const x = document.querySelector('[aria-label=\"position x\"]'); x.value = 3; x.onchange()")
         page.wait(f"{scene}.lighting.lights[0].position[0] === 3")
-        page.run("const t = document.querySelector('[aria-label=\"Title of the picture\"]'); t.value = 'Mine'; t.onchange()")
+        page.run("document.querySelector('[aria-label=\"own annotation title\"]').click()")
+        page.wait(f"{scene}.image.annotation.title === ''")
+        page.run("const t = document.querySelector('[aria-label=\"annotation title\"]'); t.value = 'Mine'; t.onchange()")
         page.wait(f"{scene}.image.annotation.title === 'Mine'")
         page.wait(SETTLED)
         self.shot("lights.png")
@@ -238,14 +202,6 @@ class BrowserTest(unittest.TestCase):
         self.assertEqual(self.without_names(), [])
         self.assertEqual(page.run("return document.getElementById('messages').innerText"), "")
         self.assertEqual(page.complaints(), [])
-
-    def by_label(self, words):
-        self.page.run("[...document.querySelectorAll('label')].find((l) => l.textContent.trim() === arguments[0]).querySelector('input').click()", words)
-
-    def without_names(self):
-        """Controls that a screen reader has no name for."""
-        return self.page.run("""return [...document.querySelectorAll('button, input, select, [tabindex]')].filter(
-            (e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.closest('label'))).map((e) => e.outerHTML)""")
 
 
 if __name__ == "__main__":

@@ -27,7 +27,7 @@ VolumeFacts facts() {
     volume.path = "ball.h5";
     volume.bounds = {-1, -2, -3, 3, 2, 1};
     volume.fields.push_back({});
-    volume.times = {0};
+    volume.times = {0, 1};
     volume.has_faces = true;
     return volume;
 }
@@ -227,6 +227,26 @@ TEST_CASE("Handles of shapes and lights take them where they go") {
             const Vector3 to = plus(handles[i].position, by);
             CHECK(distance(handles_of(with_moved_handle(scene, item, facts(), i, to), item, facts())[i].position, to) < 1e-9);
         }
+    }
+}
+
+TEST_CASE("Planes that cut a surface away have handles, after those of its place") {
+    for (const NewItem kind : {NewItem::boundary, NewItem::sphere, NewItem::cut_plane}) {
+        Scene scene = scene_of_files({});
+        const ItemId item = add(scene, facts(), kind, 0);
+        const std::size_t n_own = handles_of(scene, item, facts()).size();
+        part_of(scene, item)["clip"] = {{1, 0, 0, -0.5}, {0, 0, 2, 1}};
+        const Json whole = part_of(scene, item);
+        const std::vector<Handle> handles = handles_of(scene, item, facts());
+        REQUIRE(handles.size() == n_own + 4);
+        const Handle& mover = handles[n_own + 2];
+        const Vector3 to = plus(mover.position, scaled(mover.direction, 0.25));
+        Scene moved = with_moved_handle(scene, item, facts(), n_own + 2, to);
+        CHECK(part_of(moved, item)["clip"] == Json{{1, 0, 0, -0.5}, {0.0, 0.0, 2.0, 0.5}});
+        moved = with_moved_handle(scene, item, facts(), n_own + 1, plus(handles[n_own].position, {0, 3, 0}));
+        CHECK(part_of(moved, item)["clip"] == Json{{0.0, 1.0, 0.0, 0.0}, {0, 0, 2, 1}});
+        part_of(moved, item)["clip"] = whole["clip"];
+        CHECK(part_of(moved, item) == whole);
     }
 }
 

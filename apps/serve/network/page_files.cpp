@@ -2,9 +2,14 @@
 
 #include "page_texts.hpp"
 
+#include <elvis/elvis.h>
+
 namespace elvis::serve {
 
 std::optional<PageFile> page_file(std::string_view name) {
+    if (name == "scene.schema.json") {
+        return PageFile{elvis_scene_schema(), "application/json"};
+    }
     const std::string file = name.empty() ? "index.html" : std::string(name);
     for (const auto& [own, text] : page_texts::files) {
         if (file == own) {

@@ -21,7 +21,7 @@ export function bars(known, x, base, most) {
 }
 
 /**
- * @param {string} place of the item, such as "" or "/surfaces/0" @param {Json} map @param {string} field @param {Context} context
+ * @param {string} place of the map @param {Json} map @param {string} field @param {Context} context
  */
 export function colorScale(place, map, field, context) {
   const isLogarithmic = map.scale === "logarithmic";
@@ -40,7 +40,7 @@ export function colorScale(place, map, field, context) {
   const set = (wanted, isDone) => {
     if (wanted[0] < wanted[1] && (wanted[0] > 0 || !isLogarithmic)) {
       range = wanted;
-      context.set(`${place}/color_map/range`, wanted, "range", isDone);
+      context.set(`${place}/range`, wanted, "range", isDone);
       draw();
     }
   };
@@ -98,7 +98,7 @@ export function colorScale(place, map, field, context) {
     const quantiles = data?.quantiles;
     const most = data ? Math.max(Math.abs(data.lower), Math.abs(data.upper)) : 0;
     choices.replaceChildren(
-      button("Auto", () => context.set(`${place}/color_map/range`, null, "range"), {disabled: range === null, title: "The field's range at each time step"}),
+      button("Auto", () => context.set(`${place}/range`, null, "range"), {disabled: range === null, title: "The field's range at each time step"}),
       button("±", () => set([-most, most], true), {disabled: isLogarithmic || !(most > 0), title: "Symmetric", "aria-label": "Symmetric range"}),
       button("2-98 %", () => quantiles && set([quantiles[0], quantiles[3]], true), {disabled: !quantiles, title: "Without the lowest and the highest hundredths of the volume"}),
       button("10-90 %", () => quantiles && set([quantiles[1], quantiles[2]], true), {disabled: !quantiles}));

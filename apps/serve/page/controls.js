@@ -129,11 +129,11 @@ export function text(label, value, onChange, list) {
 /**
  * Empty is nothing.
  * @param {string} label @param {number | null} value @param {(value: number | null) => void} onChange
+ * @param {Record<string, any>} [schema] says whether it is an integer, and what it is if nothing is said
  */
-export function number(label, value, onChange) {
-  const input = /** @type {HTMLInputElement} */ (
-    element("input", {type: "number", step: "any", "aria-label": label, value: value ?? ""})
-  );
+export function number(label, value, onChange, schema = {}) {
+  const input = /** @type {HTMLInputElement} */ (element("input", {type: "number", step: schema.type === "integer" ? 1 : "any",
+    "aria-label": label, value: value ?? "", placeholder: schema.default ?? "auto"}));
   input.onchange = () => onChange(input.value === "" ? null : Number(input.value));
   return input;
 }
@@ -165,25 +165,25 @@ export const hexOf = (rgb) =>
 
 /**
  * A colour to be chosen, and its numbers, which may be finer and, of light, above 1.
- * @param {string} caption @param {number[]} rgb @param {(rgb: number[]) => void} onChange
+ * @param {string} label @param {number[]} rgb @param {(rgb: number[]) => void} onChange
  */
-export function colorRow(caption, rgb, onChange) {
-  const input = /** @type {HTMLInputElement} */ (element("input", {type: "color", value: hexOf(rgb), "aria-label": caption}));
+export function colorControls(label, rgb, onChange) {
+  const input = /** @type {HTMLInputElement} */ (element("input", {type: "color", value: hexOf(rgb), "aria-label": label}));
   input.onchange = () => onChange([1, 3, 5].map((at) => parseInt(input.value.slice(at, at + 2), 16) / 255));
-  const words = text(`${caption}: red, green, blue`, rgb.map((x) => Number(x.toPrecision(4))).join(", "), (value) => {
+  const words = text(`${label}: red, green, blue`, rgb.map((x) => Number(x.toPrecision(4))).join(", "), (value) => {
     const all = numbers(value);
     if (all?.length === 3) {
       onChange(all);
     }
   });
-  return row(caption, input, words);
+  return [input, words];
 }
 
-/** @param {string} label @param {boolean} value @param {(value: boolean) => void} onChange */
-export function check(label, value, onChange) {
-  const input = /** @type {HTMLInputElement} */ (element("input", {type: "checkbox", checked: value}));
+/** @param {string} caption @param {boolean} value @param {(value: boolean) => void} onChange @param {string} [label] for screen readers */
+export function check(caption, value, onChange, label = caption) {
+  const input = /** @type {HTMLInputElement} */ (element("input", {type: "checkbox", checked: value, "aria-label": label}));
   input.onchange = () => onChange(input.checked);
-  return element("label", {}, [input, " " + label]);
+  return element("label", {}, [input, " " + caption]);
 }
 
 /**

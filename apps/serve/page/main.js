@@ -1,11 +1,12 @@
 // What the page does: it shows the state that the server holds, and asks for changes.
 import {Connection} from "./connection.js";
 import {element, hand} from "./controls.js";
-import {pickedTable, sceneField, showItem, showScene} from "./editor.js";
+import {showItem, showScene} from "./editor.js";
 import {download, listenForFiles} from "./files.js";
 import {makeHistograms} from "./histograms.js";
 import {LineProbe} from "./line_probe.js";
 import {Overlay} from "./overlay.js";
+import {pickedTable} from "./picked_table.js";
 import {Picture} from "./picture.js";
 
 /** @typedef {Record<string, any>} Json */
@@ -21,6 +22,8 @@ let selected = "surface 0";
 /** @type {Json} */
 let frame = {};
 let playing = false;
+/** @type {number[] | null} */
+let pickedPoint = null;
 
 /** @param {string | Error} what */
 function say(what) {
@@ -70,10 +73,20 @@ function selectOnServer() {
 /** A value at a place of the scene. */
 function set(/** @type {string} */ pointer, /** @type {any} */ value, /** @type {string} */ name, isDone = true) {
   if (isDone) {
-    ask({type: "set", pointer, value, name}).then(() => connection.tell({type: "release"}));
+    connection.ask({type: "set", pointer, value, name}).then(() => connection.tell({type: "release"})).catch(refuse);
   } else {
     connection.tell({type: "set", pointer, value, name, time: performance.now()});
   }
+}
+
+/**
+ * What was typed cannot be: controls show what the scene says.
+ * @param {string | Error} what
+ */
+function refuse(what) {
+  say(what);
+  shown.editors = "";
+  showState();
 }
 
 /** @param {Json} message */
@@ -162,6 +175,7 @@ async function showUndecided() {
 async function pick(column, row) {
   const answer = await ask({type: "pick", column, row});
   if (answer && !lineProbe.take(answer.picked)) {
+    pickedPoint = answer.picked.hit ? answer.picked.position : null;
     $("picked").replaceChildren(pickedTable(answer.picked));
     $("picked-section").scrollIntoView({block: "nearest"});
   }
@@ -201,9 +215,10 @@ function showEditors() {
     return;
   }
   shown.editors = now;
-  const context = {scene: state.scene, volume, set, histograms, release};
-  keepFocus(() => showScene($("scene-editor"), context));
-  lineProbe.follow(state.scene, sceneField(context));
+  const field = state.scene.field ?? volume.fields[0]?.name ?? "";
+  const context = {scene: state.scene, volume, sceneField: field, set, release, refuse, picked: () => pickedPoint, histograms};
+  keepFocus(() => showScene(context));
+  lineProbe.follow(state.scene, field);
   $("item-section").hidden = !item;
   if (item) {
     $("item-title").textContent = item.label;
@@ -224,7 +239,7 @@ function release() {
 function keepFocus(work) {
   const nameOf = (/** @type {Element} */ node) => node.getAttribute("aria-label") ?? node.textContent;
   const name = document.activeElement && nameOf(document.activeElement);
-  const parent = document.activeElement?.closest("#item-editor, #scene-editor, #items");
+  const parent = document.activeElement?.closest(".editor, #items");
   work();
   if (name && parent && !parent.contains(document.activeElement)) {
     const all = [...parent.querySelectorAll("button, input, select, [tabindex]")];
@@ -345,6 +360,10 @@ $("play").onclick = () => {
     connection.tell({type: "release"});
   }
 };
+$("panel").addEventListener("focusin", (/** @type {FocusEvent} */ event) => {
+  const control = /** @type {HTMLElement} */ (event.target);
+  $("help").textContent = /** @type {HTMLElement | null} */ (control.closest("[title]"))?.title ?? "";
+});
 listenForFiles({ask, say, picture, stem: () => String(volume.path ?? "scene").replace(/\.[^.]*$/, "")});
 document.addEventListener("keydown", (event) => {
   const isTyping = event.target instanceof HTMLInputElement && (event.target.type === "text" || event.target.type === "number");

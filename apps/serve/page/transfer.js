@@ -1,5 +1,5 @@
 // The transfer function of volume rendering: density by value over the field's histogram, with points and peaks to be moved.
-import {button, buttons, check, colorRow, element, hand, movable, number, row, setAttributes, shape} from "./controls.js";
+import {button, buttons, check, colorControls, element, hand, movable, number, row, setAttributes, shape} from "./controls.js";
 import {bars} from "./color_scale.js";
 import {scale, short} from "./axis.js";
 
@@ -181,7 +181,7 @@ function peakRows(peak, i, send, remove) {
   return [
     row(`Peak ${i + 1}`, part("value"), button("Remove", remove, {"aria-label": `Remove peak ${i + 1}`})),
     row("Width", part("width"), element("span", {}, ["density"]), part("density")),
-    ...(peak.color ? [colorRow("Peak's colour", peak.color, (rgb) => { peak.color = rgb; send(); })] : []),
+    ...(peak.color ? [row("Peak's colour", ...colorControls(`Colour of peak ${i + 1}`, peak.color, (rgb) => { peak.color = rgb; send(); }))] : []),
     row("", check("own colour", Boolean(peak.color), (is) => {
       if (is) {
         peak.color = [0.9, 0.9, 0.9];
@@ -189,6 +189,6 @@ function peakRows(peak, i, send, remove) {
         delete peak.color;
       }
       send();
-    })),
+    }, `own colour of peak ${i + 1}`)),
   ];
 }

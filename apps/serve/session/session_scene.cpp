@@ -230,6 +230,9 @@ Session::Json Session::volume() const {
             {"elements", facts.n_elements},
             {"bounds", facts.bounds},
             {"fields", std::move(fields)},
+            {"flows", view::flows_of(facts)},
+            {"displacements", view::displacements_of(facts)},
+            {"groups", facts.boundary_groups},
             {"times", facts.times},
             {"views", std::move(views)},
             {"usual_density", usual["density"].back()[1]}};

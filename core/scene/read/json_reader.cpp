@@ -25,6 +25,12 @@ Json parse_json_file(const std::string& path) {
     }
 }
 
+namespace {
+
+bool has_entry(const Json& list, const Json& value) { return std::find(list.begin(), list.end(), value) != list.end(); }
+
+} // namespace
+
 JsonObject::JsonObject(const Json& value, const Json& schema, std::string file, std::string path)
     : m_value(&value), m_schema(&schema), m_root_schema(&schema), m_file(std::move(file)), m_path(std::move(path)) {
     if (!value.is_object()) {
@@ -39,6 +45,7 @@ JsonObject::JsonObject(const Json& value, const Json& schema, std::string file, 
             }
             fail(key, "is unknown; the nearest known key is '" + nearest_word(key, known) + "'");
         }
+        check_other_keys(key);
     }
     for (const Json& required : schema.value("required", Json::array())) {
         if (!value.contains(required.get<std::string>())) {
@@ -47,21 +54,46 @@ JsonObject::JsonObject(const Json& value, const Json& schema, std::string file, 
     }
 }
 
+void JsonObject::check_other_keys(const std::string& key) const {
+    const Json& schema = m_schema->at("properties").at(key);
+    const Json with = schema.value("with", Json::object()), excluded = schema.value("excludes", Json::array());
+    for (const auto& [other, values] : with.items()) {
+        const Json& known = m_schema->at("properties").at(other);
+        const Json value = m_value->value(other, known.value("default", Json()));
+        // Other values are told of where that key is read.
+        if (has_entry(known.at("enum"), value) && !has_entry(values, value)) {
+            fail(key, "means nothing where '" + other + "' is " + value.dump());
+        }
+    }
+    for (const Json& other : excluded) {
+        if (m_value->contains(other.get<std::string>())) {
+            fail(key, "means nothing beside '" + other.get<std::string>() + "'; give one of the two");
+        }
+    }
+}
+
+const Json& JsonObject::raw(const char* key) const {
+    if (!has(key)) {
+        fail(key, "is missing");
+    }
+    return m_value->at(key);
+}
+
 void JsonObject::fail(const std::string& key, const std::string& what) const {
     throw Error(m_file, "'" + (m_path.empty() ? key : m_path + "." + key) + "' " + what);
 }
 
+const Json& JsonObject::followed(const Json& schema) const {
+    const auto reference = schema.find("$ref");
+    return reference == schema.end() ? schema : m_root_schema->at(Json::json_pointer(reference->get<std::string>().substr(1)));
+}
+
 const Json& JsonObject::schema_of(const char* key) const {
-    const auto follow = [this](const Json& schema) -> const Json& {
-        const auto reference = schema.find("$ref");
-        return reference == schema.end() ? schema
-                                         : m_root_schema->at(Json::json_pointer(reference->get<std::string>().substr(1)));
-    };
-    const Json& schema = follow(m_schema->at("properties").at(key));
+    const Json& schema = followed(m_schema->at("properties").at(key));
     if (const auto alternatives = schema.find("anyOf"); alternatives != schema.end()) {
         for (const Json& alternative : *alternatives) {
-            const Json& one = follow(alternative);
-            const Json& value = m_value->at(key);
+            const Json& one = followed(alternative);
+            const Json& value = raw(key);
             if (one.contains(value.is_string() ? "enum" : value.is_array() ? "items" : "properties")) {
                 return one;
             }
@@ -109,7 +141,7 @@ std::vector<std::string> JsonObject::texts(const char* key) const {
 
 std::string JsonObject::word(const char* key) const {
     const Json& allowed = schema_of(key).at("enum");
-    if (std::find(allowed.begin(), allowed.end(), raw(key)) == allowed.end()) {
+    if (!has_entry(allowed, raw(key))) {
         fail(key, "is " + raw(key).dump() + "; allowed are " + allowed.dump());
     }
     return raw(key).get<std::string>();
@@ -181,12 +213,13 @@ std::vector<double> JsonObject::numbers(const char* key) const { return checked_
 
 std::vector<std::vector<double>> JsonObject::rows(const char* key) const {
     const Json& schema = schema_of(key);
+    const Json& row_schema = followed(schema.at("items"));
     if (!raw(key).is_array() || raw(key).size() < schema.value("minItems", std::size_t{0})) {
         fail(key, raw(key).is_array() ? "is empty" : "must be a list of lists");
     }
     std::vector<std::vector<double>> result;
     for (const Json& row : raw(key)) {
-        result.push_back(checked_list(row, schema.at("items"), std::string(key) + "[" + std::to_string(result.size()) + "]"));
+        result.push_back(checked_list(row, row_schema, std::string(key) + "[" + std::to_string(result.size()) + "]"));
     }
     return result;
 }

@@ -20,7 +20,10 @@ nlohmann::json parse_json_file(const std::string& path);
 /** An object in a document, with its place for messages. */
 class JsonObject {
 public:
-    /** `schema`: the schema's node for this object; every key must be among its properties. */
+    /**
+     * `schema`: the schema's node for this object. Every key must be among its properties, have another key's value that its
+     * "with" lists, and stand beside none that its "excludes" lists.
+     */
     JsonObject(const nlohmann::json& value, const nlohmann::json& schema, std::string file, std::string path);
 
     bool has(const char* key) const { return m_value->contains(key); }
@@ -37,13 +40,16 @@ public:
     std::vector<double> numbers(const char* key) const;
     /** A list of such lists. */
     std::vector<std::vector<double>> rows(const char* key) const;
-    const nlohmann::json& raw(const char* key) const { return m_value->at(key); }
+    /** Throws Error if it is missing, as all that is said of a value. */
+    const nlohmann::json& raw(const char* key) const;
 
     /** File and path of this object, for messages. */
     std::string place() const { return m_path.empty() ? m_file : m_file + ": '" + m_path + "'"; }
     [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
 private:
+    void check_other_keys(const std::string& key) const;
+    const nlohmann::json& followed(const nlohmann::json& schema) const;
     /** Follows references; of "anyOf" the alternative for a value of this kind (text or object). */
     const nlohmann::json& schema_of(const char* key) const;
     double checked(const nlohmann::json& value, const nlohmann::json& schema, const std::string& key) const;

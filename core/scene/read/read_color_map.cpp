@@ -4,9 +4,6 @@ namespace elvis {
 
 SceneColorMap read_color_map(const JsonObject& object, const std::string& scene) {
     SceneColorMap map;
-    if (object.has("name") + object.has("file") + object.has("points") > 1) {
-        object.fail("name", "stands beside 'file' or 'points'; give one of them");
-    }
     if (object.has("name")) {
         map.name = object.text("name");
     }

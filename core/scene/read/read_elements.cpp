@@ -98,9 +98,6 @@ WireFrame read_wireframe(const JsonObject& object) {
         has_condition = has_condition || object.has(key);
     }
     if (has_condition) {
-        if (object.has("groups")) {
-            object.fail("groups", "means nothing beside conditions for elements");
-        }
         frame.faces = ElementFaces{read_selection(object)};
     } else {
         frame.faces = BoundaryFaces{object.has("groups") ? object.texts("groups") : std::vector<std::string>()};

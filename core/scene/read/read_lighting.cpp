@@ -8,13 +8,6 @@ Light read_light(const JsonObject& object) {
     Light light;
     const bool is_point = object.word("type") == "point";
     const char* key = is_point ? "position" : "direction";
-    const char* other = is_point ? "direction" : "position";
-    if (object.has(other)) {
-        object.fail(other, std::string("means nothing for a light of type \"") + (is_point ? "point" : "directional") + "\"");
-    }
-    if (!object.has(key)) {
-        object.fail(key, "is missing");
-    }
     light.type = is_point ? Light::Type::point : Light::Type::directional;
     light.vector = fixed<3>(object.numbers(key));
     if (!is_point && light.vector == Vector3{}) {

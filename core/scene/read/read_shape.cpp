@@ -1,68 +1,8 @@
 #include <core/scene/read/read_parts.hpp>
 
-#include <algorithm>
-#include <string_view>
-
 namespace elvis {
 
 namespace {
-
-/** Keys that say where surfaces of some type lie, and those types. */
-struct PlaceKey {
-    const char* key;
-    std::vector<std::string_view> types;
-};
-
-const std::vector<PlaceKey>& place_keys() {
-    static const std::vector<PlaceKey> keys = {{"plane", {"plane"}},
-                                               {"point", {"plane"}},
-                                               {"normal", {"plane"}},
-                                               {"groups", {"boundary", "wireframe"}},
-                                               {"ids", {"elements", "wireframe"}},
-                                               {"shapes", {"elements", "wireframe"}},
-                                               {"orders", {"elements", "wireframe"}},
-                                               {"negative_jacobian", {"elements", "wireframe"}},
-                                               {"value_range", {"elements", "wireframe"}},
-                                               {"box", {"elements", "wireframe"}},
-                                               {"faces", {"elements", "wireframe"}},
-                                               {"width", {"wireframe"}},
-                                               {"color", {"wireframe", "isosurface", "streamlines", "pathlines", "arrows"}},
-                                               {"values", {"isosurface"}},
-                                               {"color_field", {"isosurface"}},
-                                               {"range_skipping", {"isosurface"}},
-                                               {"method", {"isosurface"}},
-                                               {"degree", {"isosurface"}},
-                                               {"center", {"sphere", "torus"}},
-                                               {"radius", {"sphere", "cylinder", "streamlines", "pathlines"}},
-                                               {"flow", {"streamlines", "pathlines"}},
-                                               {"seeds", {"streamlines", "pathlines"}},
-                                               {"seed_grid", {"streamlines", "pathlines"}},
-                                               {"direction", {"streamlines", "pathlines"}},
-                                               {"length", {"streamlines", "pathlines"}},
-                                               {"tolerance", {"streamlines", "pathlines"}},
-                                               {"start_time", {"pathlines"}},
-                                               {"end_time", {"pathlines"}},
-                                               {"interpolation", {"pathlines"}},
-                                               {"vectors", {"arrows"}},
-                                               {"on", {"arrows"}},
-                                               {"spacing", {"arrows"}},
-                                               {"scale", {"arrows"}},
-                                               {"from", {"cylinder", "cone"}},
-                                               {"to", {"cylinder", "cone"}},
-                                               {"from_radius", {"cone"}},
-                                               {"to_radius", {"cone"}},
-                                               {"capped", {"cylinder", "cone"}},
-                                               {"coefficients", {"quadric"}},
-                                               {"axis", {"torus"}},
-                                               {"major_radius", {"torus"}},
-                                               {"minor_radius", {"torus"}},
-                                               {"expression", {"implicit"}},
-                                               {"file", {"mesh", "bezier"}},
-                                               {"outside",
-                                                {"plane", "sphere", "cylinder", "cone", "quadric", "torus", "implicit", "mesh",
-                                                 "bezier", "streamlines", "pathlines"}}};
-    return keys;
-}
 
 Vector3 vector(const JsonObject& object, const char* key) { return fixed<3>(object.numbers(key)); }
 
@@ -97,23 +37,7 @@ CutShape shape_of(const JsonObject& object, const std::string& type, const std::
 
 } // namespace
 
-void check_place_keys(const JsonObject& object, const std::string& type) {
-    for (const PlaceKey& key : place_keys()) {
-        const bool is_its_own = std::find(key.types.begin(), key.types.end(), type) != key.types.end();
-        if (object.has(key.key) && !is_its_own) {
-            object.fail(key.key, "means nothing for a surface of type \"" + type + "\"");
-        }
-    }
-}
-
 CutShape read_shape(const JsonObject& object, const std::string& type, const std::string& scene) {
-    for (const PlaceKey& key : place_keys()) {
-        const bool is_its_own = std::find(key.types.begin(), key.types.end(), type) != key.types.end();
-        const bool is_optional = key.key == std::string_view("capped") || key.key == std::string_view("outside");
-        if (is_its_own && !object.has(key.key) && !is_optional) {
-            object.fail(key.key, "is missing, which a surface of type \"" + type + "\" needs");
-        }
-    }
     CutShape shape = shape_of(object, type, scene);
     check_shape(shape, object.place());
     return shape;

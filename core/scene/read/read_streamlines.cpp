@@ -27,14 +27,8 @@ ScenePathTimes read_path_times(const JsonObject& object) {
 
 SceneStreamlines read_streamlines(const JsonObject& object) {
     SceneStreamlines lines;
-    if (!object.has("flow")) {
-        object.fail("flow", "is missing, which streamlines and pathlines need: a vector field");
-    }
     lines.flow = object.text("flow");
     if (object.has("seeds")) {
-        if (object.has("seed_grid")) {
-            object.fail("seed_grid", "and 'seeds' say both where lines begin; give one of the two");
-        }
         for (const std::vector<double>& seed : object.rows("seeds")) {
             lines.seeds.push_back(fixed<3>(seed));
         }
@@ -71,9 +65,6 @@ SceneStreamlines read_pathlines(const JsonObject& object) {
 
 SceneArrows read_arrows(const JsonObject& object) {
     SceneArrows arrows;
-    if (!object.has("vectors")) {
-        object.fail("vectors", "is missing, which arrows need: a vector field");
-    }
     arrows.vectors = object.text("vectors");
     if (object.has("on")) {
         arrows.on = object.text("on");

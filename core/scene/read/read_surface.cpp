@@ -13,15 +13,12 @@ BoundaryFaces read_boundary(const JsonObject& object) {
 
 CutPlane read_plane(const JsonObject& object) {
     CutPlane plane;
-    if (object.has("plane") == (object.has("point") || object.has("normal"))) {
-        object.fail("plane", "or 'point' and 'normal' must say where the plane is, and only one of the two");
+    if (!object.has("plane") && !object.has("point") && !object.has("normal")) {
+        object.fail("plane", "or 'point' and 'normal' must say where the plane is");
     }
     if (object.has("plane")) {
         plane.plane = fixed<4>(object.numbers("plane"));
     } else {
-        if (!object.has("point") || !object.has("normal")) {
-            object.fail("point", "and 'normal' belong together");
-        }
         const auto point = fixed<3>(object.numbers("point"));
         const auto normal = fixed<3>(object.numbers("normal"));
         plane.plane = {normal[0], normal[1], normal[2], -(normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2])};
@@ -43,9 +40,6 @@ IsosurfaceMethod read_method(const JsonObject& object) {
 }
 
 Isosurfaces read_isosurfaces(const JsonObject& object) {
-    if (!object.has("values")) {
-        object.fail("values", "is missing, which an isosurface needs");
-    }
     Isosurfaces isosurfaces;
     isosurfaces.values = object.numbers("values");
     std::sort(isosurfaces.values.begin(), isosurfaces.values.end());
@@ -55,15 +49,9 @@ Isosurfaces read_isosurfaces(const JsonObject& object) {
     }
     if (object.has("degree")) {
         isosurfaces.degree = object.integer("degree");
-        if (isosurfaces.degree != 0 && isosurfaces.method == IsosurfaceMethod::interval) {
-            object.fail("degree", "is of the methods 'bernstein' and 'companion' only");
-        }
         if (isosurfaces.degree == 1 || isosurfaces.degree > segment::max_degree) {
             object.fail("degree", "must be 0, or from 2 to 13");
         }
-    }
-    if (object.has("color") && (object.has("color_map") || object.has("color_field"))) {
-        object.fail("color", "stands in place of 'color_map' and 'color_field': only one of them can be");
     }
     return isosurfaces;
 }
@@ -86,9 +74,6 @@ SceneLineStyle read_line_style(const JsonObject& object) {
 
 SceneContours read_contours(const JsonObject& object) {
     SceneContours contours;
-    if (object.has("values") && object.has("count")) {
-        object.fail("values", "and 'count' say both which values are wanted; give one of the two, or none for round values");
-    }
     contours.is_round = !object.has("values") && !object.has("count");
     if (object.has("values")) {
         contours.values = object.numbers("values");
@@ -100,9 +85,6 @@ SceneContours read_contours(const JsonObject& object) {
     }
     if (object.has("range")) {
         contours.range = fixed<2>(object.numbers("range"));
-        if (object.has("values")) {
-            object.fail("range", "means nothing beside 'values'");
-        }
         if (!((*contours.range)[0] < (*contours.range)[1])) {
             object.fail("range", "must go from a smaller to a larger value");
         }
@@ -120,7 +102,6 @@ SceneContours read_contours(const JsonObject& object) {
 
 SceneSurface read_surface(const JsonObject& object, const std::string& type, const std::string& scene) {
     SceneSurface surface;
-    check_place_keys(object, type);
     if (type == "plane") {
         surface.geometry = read_plane(object);
     } else if (type == "boundary") {

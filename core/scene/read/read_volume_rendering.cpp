@@ -42,35 +42,14 @@ ScenePeak read_peak(const JsonObject& object) {
     return peak;
 }
 
-/** Keys that say the same, or nothing, beside others. */
-void check_combinations(const JsonObject& object) {
-    for (const char* key : {"color_map", "density", "opacity", "unit_distance"}) {
-        if (object.has("transfer") && object.has(key)) {
-            object.fail(key, "means nothing beside 'transfer', which has colors and density of its own");
-        }
-    }
-    if (object.has("density") && object.has("opacity")) {
-        object.fail("opacity", "stands beside 'density'; give one of them");
-    }
-    if (object.has("unit_distance") && !object.has("opacity")) {
-        object.fail("unit_distance", "means nothing without 'opacity'");
-    }
-}
-
 void read_integrator(const JsonObject& object, SceneVolumeRendering& rendering) {
     if (object.has("integrator")) {
         rendering.integrator = integrator_named(object.word("integrator")).value();
     }
     if (object.has("step")) {
-        if (!has_steps(rendering.integrator)) {
-            object.fail("step", "is of the integrators 'riemann', 'trapezoid' and 'categories' only");
-        }
         rendering.step = object.number("step");
     }
     if (object.has("tolerance")) {
-        if (has_steps(rendering.integrator)) {
-            object.fail("tolerance", "is of the integrators 'exact' and 'adaptive-trapezoid' only");
-        }
         rendering.tolerance = object.number("tolerance");
     }
     if (object.has("range_skipping")) {
@@ -109,7 +88,9 @@ TransferFunction read_transfer(const JsonObject& object) {
 }
 
 SceneVolumeRendering read_volume_rendering(const JsonObject& object, const std::string& scene) {
-    check_combinations(object);
+    if (object.has("unit_distance") && !object.has("opacity")) {
+        object.fail("unit_distance", "means nothing without 'opacity'");
+    }
     SceneVolumeRendering rendering;
     if (object.has("field")) {
         rendering.field = object.text("field");

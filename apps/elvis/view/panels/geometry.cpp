@@ -166,7 +166,8 @@ bool edit_geometry(Ui& ui, Json& surface) {
                                                                         {"elements", edit_elements},
                                                                         {"wireframe", edit_wireframe},
                                                                         {"streamlines", edit_streamlines},
-                                                                        {"pathlines", edit_streamlines}};
+                                                                        {"pathlines", edit_streamlines},
+                                                                        {"arrows", edit_arrows}};
     const std::string type = surface["type"];
     if (type == "implicit") {
         auto expression = surface["expression"].get<std::string>();

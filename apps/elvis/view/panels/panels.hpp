@@ -52,6 +52,7 @@ bool edit_elements(Ui& ui, Json& surface);
 bool edit_wireframe(Ui& ui, Json& frame);
 /** Streamlines and pathlines. */
 bool edit_streamlines(Ui& ui, Json& lines);
+bool edit_arrows(Ui& ui, Json& arrows);
 bool edit_light(Ui& ui, Json& light);
 bool edit_warp(Ui& ui, Json& scene);
 

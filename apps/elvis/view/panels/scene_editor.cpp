@@ -103,6 +103,9 @@ void draw_scene_editor(Ui& ui) {
         ImGui::Separator();
         did("light", edit_lighting(ui, scene));
         ImGui::Separator();
+        did("threshold",
+            text(ui, "scene/threshold", "Only where", scene, "threshold",
+                 "The part of the volume that is shown: comparisons of expressions, such as p > 0.2 && x < y", "all"));
         did("displacement", edit_warp(ui, scene));
         ImGui::Separator();
         did("annotation", edit_annotation(ui, scene));

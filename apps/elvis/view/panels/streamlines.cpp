@@ -61,14 +61,14 @@ bool edit_seeds(Ui& ui, Json& lines) {
 }
 
 /** A length that may be left to the program. */
-bool edit_optional(Ui& ui, const std::string& name, const char* label, Json& lines, const char* key, double start,
-                   double extent, const char* help) {
+bool edit_optional(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double start, double extent,
+                   const char* help) {
     ImGui::PushID(name.c_str());
-    bool is_changed = optional_part(ui, name, label, lines, key, start, help);
-    if (lines.contains(key)) {
+    bool is_changed = optional_part(ui, name, label, part, key, start, help);
+    if (part.contains(key)) {
         ImGui::SameLine();
         ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
-        is_changed = positive_number(ui, name + "/value", "##value", lines, key, extent, help) || is_changed;
+        is_changed = positive_number(ui, name + "/value", "##value", part, key, extent, help) || is_changed;
     }
     ImGui::PopID();
     return is_changed;
@@ -126,6 +126,22 @@ bool edit_streamlines(Ui& ui, Json& lines) {
                  is_changed;
     return edit_optional(ui, "streamlines/length", "Length", lines, "length", diagonal, diagonal,
                          "Of each line, in each direction; else ten times the volume's diagonal") ||
+           is_changed;
+}
+
+bool edit_arrows(Ui& ui, Json& arrows) {
+    const double diagonal = ui.model().volume()->diagonal();
+    bool is_changed = offered_text(ui, "arrows/vectors", "Vectors", arrows, "vectors", flows_of(*ui.model().volume()),
+                                   "The vector field or expression that the arrows show");
+    is_changed =
+        text(ui, "arrows/on", "On", arrows, "on",
+             "Name of the plane, boundary or isosurface on which they stand; in the volume if left empty", "the volume") ||
+        is_changed;
+    is_changed = edit_optional(ui, "arrows/spacing", "Spacing", arrows, "spacing", 0.05 * diagonal, diagonal / 20,
+                               "Distance between arrows; else a twentieth of the volume's diagonal") ||
+                 is_changed;
+    return edit_optional(ui, "arrows/scale", "Scale", arrows, "scale", 1, 1,
+                         "Length of a vector of length 1; else the longest arrow is as long as the spacing") ||
            is_changed;
 }
 

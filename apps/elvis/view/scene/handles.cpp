@@ -58,8 +58,8 @@ std::vector<Handle> handles_of_ends(const Json& surface) {
     return handles;
 }
 
-/** None of most types. */
-std::vector<Handle> handles_of_surface(const Json& surface, const VolumeFacts& volume) {
+/** Of its place; none of most types. */
+std::vector<Handle> handles_of_place(const Json& surface, const VolumeFacts& volume) {
     const std::string type = surface["type"];
     if (type == "plane") {
         return handles_of_plane(surface["plane"], volume);
@@ -80,9 +80,18 @@ std::vector<Handle> handles_of_surface(const Json& surface, const VolumeFacts& v
     return seeds;
 }
 
-void move_plane(Json& surface, const VolumeFacts& volume, std::size_t handle, const Vector3& position) {
-    Plane plane = surface["plane"];
-    if (handle == 0) {
+/** Those of its place, then two of each plane that cuts it away. */
+std::vector<Handle> handles_of_surface(const Json& surface, const VolumeFacts& volume) {
+    std::vector<Handle> handles = handles_of_place(surface, volume);
+    for (const Json& plane : part_of(surface, "clip")) {
+        const std::vector<Handle> more = handles_of_plane(plane, volume);
+        handles.insert(handles.end(), more.begin(), more.end());
+    }
+    return handles;
+}
+
+Plane moved_plane(Plane plane, const VolumeFacts& volume, bool is_turned, const Vector3& position) {
+    if (!is_turned) {
         plane[3] -= side(plane, position) * length(normal_of(plane));
     } else {
         const Vector3 anchor = anchor_of(plane, volume);
@@ -92,7 +101,7 @@ void move_plane(Json& surface, const VolumeFacts& volume, std::size_t handle, co
             plane = {along[0], along[1], along[2], -dot(along, anchor)};
         }
     }
-    surface["plane"] = plane;
+    return plane;
 }
 
 double radius_from(const Vector3& centre, const Vector3& position) {
@@ -102,8 +111,12 @@ double radius_from(const Vector3& centre, const Vector3& position) {
 
 void move_surface(Json& surface, const VolumeFacts& volume, std::size_t handle, const Vector3& position) {
     const std::string type = surface["type"];
-    if (type == "plane") {
-        move_plane(surface, volume, handle, position);
+    const std::size_t n_of_place = handles_of_place(surface, volume).size();
+    if (handle >= n_of_place) {
+        Json& plane = surface["clip"][(handle - n_of_place) / 2];
+        plane = moved_plane(plane, volume, (handle - n_of_place) % 2 == 1, position);
+    } else if (type == "plane") {
+        surface["plane"] = moved_plane(surface["plane"], volume, handle == 1, position);
     } else if (surface.contains("seeds")) {
         surface["seeds"][handle] = position;
     } else if (surface.contains("center")) {

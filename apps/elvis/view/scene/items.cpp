@@ -4,6 +4,7 @@
 #include <core/base/vector3.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace elvis::view {
@@ -58,12 +59,21 @@ std::string detail(const Json& surface) {
     if (type == "boundary") {
         return joined(surface.value("groups", std::vector<std::string>()));
     }
-    return surface.value("flow", std::string());
+    return surface.value("flow", surface.value("vectors", std::string()));
 }
 
 double least_extent(const VolumeFacts& volume) {
     const auto& b = volume.bounds;
     return std::max(std::min({b[3] - b[0], b[4] - b[1], b[5] - b[2]}), 1e-6 * volume.diagonal());
+}
+
+/** Of the bounds; what rounding leaves of a zero is zero. */
+Vector3 middle_of_volume(const VolumeFacts& volume) {
+    Vector3 middle = middle_of(volume.bounds);
+    for (double& x : middle) {
+        x = std::abs(x) < 1e-12 * volume.diagonal() ? 0 : x;
+    }
+    return middle;
 }
 
 /** Through the middle of the volume, across its shortest extent. */
@@ -75,12 +85,12 @@ std::array<double, 4> central_plane(const VolumeFacts& volume) {
     }
     std::array<double, 4> plane{};
     plane[shortest] = 1;
-    plane[3] = -middle_of(b)[shortest];
+    plane[3] = 0 - middle_of_volume(volume)[shortest];
     return plane;
 }
 
 Json new_surface(const VolumeFacts& volume, NewItem item, double value) {
-    const Vector3 middle = middle_of(volume.bounds);
+    const Vector3 middle = middle_of_volume(volume);
     const double extent = least_extent(volume);
     const Vector3 along = {0, 0, 0.35 * extent};
     const Vector3 from = minus(middle, along), to = plus(middle, along);
@@ -120,6 +130,10 @@ Json new_surface(const VolumeFacts& volume, NewItem item, double value) {
         return {{"type", "isosurface"}, {"values", {value}}};
     case NewItem::streamlines:
         return {{"type", "streamlines"}, {"flow", flows_of(volume).front()}};
+    case NewItem::pathlines:
+        return {{"type", "pathlines"}, {"flow", flows_of(volume).front()}};
+    case NewItem::arrows:
+        return {{"type", "arrows"}, {"vectors", flows_of(volume).front()}};
     default:
         return {{"type", "boundary"}};
     }
@@ -219,6 +233,8 @@ const std::vector<NewItemInfo>& new_items() {
         {NewItem::wireframe, "Wireframe", "Curved edges of elements"},
         {NewItem::isosurface, "Isosurface", "Where the field takes given values"},
         {NewItem::streamlines, "Streamlines", "Curves that are everywhere tangent to a vector field, as tubes"},
+        {NewItem::pathlines, "Pathlines", "The ways of points that move with a vector field through the time steps, as tubes"},
+        {NewItem::arrows, "Arrows", "A vector field as arrows, evenly spaced in the volume or on a surface that has a name"},
         {NewItem::volume, "Volume", "The volume itself, as light that it emits and absorbs"},
         {NewItem::directional_light, "Directional light", "Light from far away"},
         {NewItem::point_light, "Point light", "Light from a place"}};
@@ -261,8 +277,8 @@ bool can_add(const Scene& scene, const VolumeFacts& volume, NewItem item) {
     if (item == NewItem::boundary || item == NewItem::elements || item == NewItem::wireframe) {
         return volume.has_faces;
     }
-    if (item == NewItem::streamlines) {
-        return !flows_of(volume).empty();
+    if (item == NewItem::streamlines || item == NewItem::pathlines || item == NewItem::arrows) {
+        return !flows_of(volume).empty() && (item != NewItem::pathlines || volume.times.size() > 1);
     }
     return item != NewItem::volume || !scene.contains("volume_rendering");
 }

@@ -57,6 +57,8 @@ enum class NewItem {
     wireframe,
     isosurface,
     streamlines,
+    pathlines,
+    arrows,
     volume,
     directional_light,
     point_light
@@ -67,7 +69,7 @@ struct NewItemInfo {
     const char* help;
 };
 const std::vector<NewItemInfo>& new_items();
-/** Vector fields that lines can follow, and expressions made of fields; the latter last. */
+/** Vector fields that lines can follow and arrows can show, and expressions made of fields; the latter last. */
 std::vector<std::string> flows_of(const VolumeFacts& volume);
 /** Fields that can displace the volume. */
 std::vector<std::string> displacements_of(const VolumeFacts& volume);
