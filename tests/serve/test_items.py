@@ -54,7 +54,7 @@ class ItemsTest(BrowserCase):
             self.page.run("return elvis.connection.ask({type: 'set', pointer: '/surfaces', value: [arguments[0]]})", {"type": kind, "visible": False, **keys})
             self.page.wait(f"{SCENE}.surfaces[0].type === '{kind}' && document.getElementById('item-title').textContent.toLowerCase().startsWith('{kind}')")
             captions = self.page.run("""return [...document.querySelectorAll('#item-editor > .row')].map(
-                (r) => r.querySelector('.caption').textContent || r.textContent.trim())""")
+                (r) => r.querySelector('.caption')?.textContent || r.textContent.trim())""")
             wanted = [key.replace("_", " ").replace("color", "colour") for key, node in properties.items()
                       if key not in ("type", "visible", "degree") and kind in node.get("with", {"type": [kind]})["type"]]
             missing = [key for key in wanted if key not in captions and key != "colour map"]
