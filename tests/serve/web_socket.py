@@ -25,6 +25,7 @@ def connect(port, timeout=60):
 class WebSocket:
     def __init__(self, port, target, headers=(), host=None):
         self.socket = connect(port)
+        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)  # As browsers do: movements must not wait.
         key = base64.b64encode(os.urandom(16)).decode()
         lines = [f"GET {target} HTTP/1.1", f"Host: {host or f'127.0.0.1:{port}'}", "Upgrade: websocket", "Connection: Upgrade",
                  f"Sec-WebSocket-Key: {key}", "Sec-WebSocket-Version: 13", *headers, "", ""]

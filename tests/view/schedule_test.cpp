@@ -61,6 +61,24 @@ TEST_CASE("while things move ten frames a second are drawn, as large as that all
     }
 }
 
+TEST_CASE("a picture that was slow for another reason leaves those after it small for a second or two at most") {
+    MadeUp made;
+    made.all = 60;
+    const auto move = [&](int n_frames) {
+        for (int frame = 0; frame < n_frames; ++frame) {
+            made.schedule.touch(made.now);
+            made.draw();
+        }
+    };
+    move(12);
+    REQUIRE(made.schedule.moving_divisor() == 1);
+    made.all = 600;
+    move(2);
+    made.all = 60;
+    move(30);
+    CHECK(made.schedule.moving_divisor() == 1);
+}
+
 TEST_CASE("time that no pixel takes is not mended by fewer pixels") {
     for (const double fixed : {60.0, 150.0}) {
         MadeUp made;

@@ -15,6 +15,9 @@ constexpr double most_of_budget = 0.7;
  */
 constexpr std::uint32_t coarsest_with_lines = 4;
 
+/** What a larger picture once took is forgotten after so many of one size: it may have been slow for another reason. */
+constexpr int most_alike = 20;
+
 } // namespace
 
 void FrameSchedule::touch(Time now) {
@@ -90,8 +93,11 @@ double FrameSchedule::expected(std::uint32_t divisor, const Sample& drawn) const
 }
 
 void FrameSchedule::choose_divisor(const Sample& drawn) {
-    if (m_last && m_last->divisor != drawn.divisor) {
+    m_n_alike = m_last && m_last->divisor == drawn.divisor ? m_n_alike + 1 : 0;
+    if (m_last && m_n_alike == 0) {
         m_other_size = m_last;
+    } else if (m_n_alike > most_alike && m_other_size && m_other_size->divisor < drawn.divisor) {
+        m_other_size.reset();
     }
     m_last = drawn;
     // Fewer pixels than that are no use: the rest takes its time.

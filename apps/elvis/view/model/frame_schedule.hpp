@@ -93,6 +93,8 @@ private:
     std::uint32_t m_divisor = 4;
     /** With or without lines, as m_with_lines says. */
     std::optional<Sample> m_last, m_other_size;
+    /** Pictures of one size, before the last one. */
+    int m_n_alike = 0;
     bool m_with_lines = true;
     /** What all pixels took the last time that lines were not given up. */
     double m_full_with_lines = 0;
