@@ -41,6 +41,7 @@ class BrowserTest(BrowserCase):
         page.drag(middle, (0, 0), steps=1)
         page.wait("document.querySelector('#picked table')")
         self.assertIn("xi", page.run("return document.getElementById('picked').innerText"))
+        self.assertEqual(page.run("return [document.body.scrollTop, document.documentElement.scrollTop, document.body.scrollHeight <= innerHeight]"), [0, 0, True])
         self.shot("picked.png")
         page.click("#panel-toggle")
         page.wait(f"{SETTLED} && elvis.frame().size[0] === innerWidth && elvis.frame().size[1] === innerHeight")

@@ -245,6 +245,19 @@ class ServeTest(unittest.TestCase):
         self.assertEqual(other.session, page.session)
         self.assertEqual(again.wait(lambda m: m["type"] == "taken")["type"], "taken")
 
+    def test_several_volumes_are_shown_as_they_are_drawn(self):
+        page = self.page(size=SIZE)
+        page.ask(type="set", pointer="/surfaces/1/opacity", value=1)
+        page.ask(type="set", pointer="/volumes", value=[{"offset": [2.5, 0, 0], "time_step": 1}])
+        page.ask(type="view", name="+z")
+        self.assertEqual(page.exact()["bytes"], self.drawn_by_render(page.ask(type="save scene")["scene"]))
+        self.assertIn("another volume", page.ask(type="set", pointer="/volumes/0/path", value="other.h5")["text"])
+        page.frames.clear()
+        page.ask(type="orbit", dx=5, dy=3)
+        page.exact()
+        self.assertEqual(page.frames[0]["size"], SIZE)
+        self.assertEqual(page.frames[0]["mime"], "image/jpeg")
+
     def test_no_more_than_two_frames_are_unconfirmed(self):
         page = self.page(size=[400, 300])
         page.confirms = False

@@ -13,8 +13,8 @@ import {formats, isMeaningful, resolved, start, withValue} from "./schema.js";
  *            put: (value: any, isDone?: boolean) => void}} Entry
  */
 
-/** These have controls of their own, or say what others do. */
-const elsewhere = ["type", "visible", "lights", "point", "normal"];
+/** These have controls of their own, say what others do, or are the server's matter. */
+const elsewhere = ["type", "visible", "lights", "point", "normal", "path", "more_paths", "plugin"];
 
 /**
  * @param {string} place of the object @param {Json} part the object @param {Json} node its schema @param {Context} context
@@ -87,7 +87,7 @@ function wordRows({caption, label, node, value, put}) {
 
 /** @param {Entry} entry */
 function colorRows({caption, label, value, put, node, context}) {
-  const own = check("own", value !== undefined, (is) => put(is ? start(node, context) : null), `own ${label}`);
+  const own = check(value ? "" : "own", value !== undefined, (is) => put(is ? start(node, context) : null), `own ${label}`);
   return [row(caption, own, ...(value ? colorControls(label, value, put) : []))];
 }
 
@@ -191,5 +191,5 @@ function listRows({place, caption, label, value, put, context}, items) {
         put: (other, isDone) => other && context.set(`${place}/${i}`, other, caption, isDone)});
     return [row(`${caption} ${i + 1}`, removal), ...own];
   });
-  return [row(all.length > 0 ? "" : caption, button("Add", () => put([...all, start(items, context)]), {"aria-label": `Add to ${label}`})), ...rows];
+  return [...rows, row(all.length > 0 ? "" : caption, button(`Add to ${caption}`, () => put([...all, start(items, context)]), {"aria-label": `Add to ${label}`}))];
 }

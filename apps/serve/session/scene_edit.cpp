@@ -155,6 +155,11 @@ void ScenePaths::check(const json& scene) const {
     if (volume_of(scene) != m_volume) {
         throw Error("'volume' is another one than what is served");
     }
+    visit_files(scene.value("volumes", json()), false, [this](const std::string& path) {
+        if (!m_known.contains(path)) {
+            throw Error("'volumes' has another volume than what is served: '" + path + "'");
+        }
+    });
     check_files(scene);
 }
 

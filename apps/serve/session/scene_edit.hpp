@@ -28,7 +28,7 @@ public:
     /** `first`: what the page sees, with paths as seen from `root`. */
     ScenePaths(const std::filesystem::path& root, const nlohmann::json& first);
 
-    /** Throws Error if the scene has another volume, or names a file that it may not. */
+    /** Throws Error if the scene has other volumes, or names a file that it may not. */
     void check(const nlohmann::json& scene) const;
 
 private:
