@@ -355,7 +355,7 @@ def finds_numbers(window, elvis):
     return screen["numbers"]["table"]
 
 
-def edits_streamlines_and_warp(window):
+def edits_lines_arrows_and_what_is_shown_of_the_volume(window):
     window.click("items/add")
     window.click("add/Streamlines")
     window.wait_for(lambda screen: screen["items"][-1] == "Streamlines velocity", "the streamlines")
@@ -367,14 +367,23 @@ def edits_streamlines_and_warp(window):
     window.wait_for(lambda screen: screen["scene"]["surfaces"][1]["seeds"][0] != seed, "the seed to move")
     window.click("streamlines/pathlines", 0.05)
     window.wait_for(lambda screen: screen["scene"]["surfaces"][1]["type"] == "pathlines", "pathlines")
+    window.click("items/add")
+    window.click("add/Arrows")
+    window.wait_for(lambda screen: screen["items"][-1] == "Arrows velocity", "the arrows")
+    window.click("arrows/spacing", 0.05)
+    window.wait_for(lambda screen: screen["scene"]["surfaces"][2].get("spacing", 0) > 0, "their spacing")
     window.click("tab/Scene")
     window.wheel(window.place("scene/field"), -10)
+    window.click("scene/threshold")
+    window.write("x < 0.9")
+    window.key("Return")
+    window.wait_for(lambda screen: screen["scene"].get("threshold") == "x < 0.9", "the threshold")
     window.click("scene/warp", 0.05)
     window.wait_for(lambda screen: screen["scene"].get("warp", {}).get("field") == "velocity", "the displacement")
     screen = window.settle()
     require(not any("error" in message for message in screen["messages"][-2:]), f"it says {screen['messages']}")
     window.picture("streamlines.png")
-    for _ in range(6):
+    for _ in range(9):
         window.key("ctrl+z")
     window.wait_for(lambda screen: screen["items"] == ["Boundary"] and "warp" not in screen["scene"], "all to go again")
     window.settle()
@@ -446,7 +455,7 @@ def main(elvis, folder):
             table = answers(window, elvis)
             found, wanted = pasted(window)[:60], table.translate(without_tabs)[:60]
             require(found == wanted, f"the clipboard holds '{found}' in place of '{wanted}'")
-        edits_streamlines_and_warp(window)
+        edits_lines_arrows_and_what_is_shown_of_the_volume(window)
         hides_all(window, elvis)
         quits(window)
     finally:
