@@ -31,7 +31,7 @@ FrameRequest around_canister(std::uint32_t width, std::uint32_t height) {
     request.camera.up = {0, 1, 0};
     request.camera.field_of_view = 50;
     request.background = {1, 1, 1, 1};
-    request.with_buffers = false;
+    request.for_screen = true;
     return request;
 }
 

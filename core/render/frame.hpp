@@ -70,6 +70,8 @@ struct FrameRequest {
     std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
     bool with_buffers = true;
+    /** Frame::screen is given, a sixteenth of the bytes, and all other vectors stay empty. */
+    bool for_screen = false;
     Sharing sharing;
     /** What people should know of how the request came to be; nothing to the renderer. */
     std::vector<std::string> remarks;
@@ -171,6 +173,11 @@ struct Frame {
     std::vector<std::int64_t> element; ///< element number as people know it; -1 where nothing was hit
     std::vector<double> normal;        ///< 3 a pixel, unit, towards the viewer; NaN where nothing was hit
     std::vector<std::uint32_t> flags;
+    /**
+     * 4 bytes a pixel, if FrameRequest::for_screen: colours in 256 levels, rounded as in PNG files; over grey where the picture
+     * is not opaque, and opaque.
+     */
+    std::vector<std::uint8_t> screen;
     /** Light of the volume, if FrameRequest::gives_runs: by pixel, and along each ray. */
     std::vector<LightRun> runs;
     /** What each channel of all light of a ray is off besides. */

@@ -5,6 +5,7 @@
 #include <core/render/layered_picture.hpp>
 #include <core/render/picture/frame_read.hpp>
 #include <core/render/picture/picture_rows.hpp>
+#include <core/render/picture/screen_pass.hpp>
 #include <core/render/prepared_request.hpp>
 #include <core/render/renderer.hpp>
 #include <core/render/volume/volume_pass.hpp>
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace elvis {
@@ -78,6 +80,7 @@ struct Renderer::Impl {
     ShownFields fields;
     PassSet passes;
     LayeredPicture picture;
+    std::optional<ScreenPass> screen;
     RendererTimes times;
     std::uint64_t n_overlapping = 0;
 
@@ -90,6 +93,7 @@ struct Renderer::Impl {
     }
 
     void find_overlaps(const TaskControl* task);
+    ScreenPass& screen_pass() { return screen ? *screen : screen.emplace(device, data.precision()); }
     std::vector<SurfaceFacts> draw_surfaces(const FrameRequest& request, Frame& frame);
     void draw_volume(const FrameRequest& request, Frame& frame);
     std::uint32_t flags_of_range(const Surface& surface, std::uint32_t time_step, double offset);
@@ -212,7 +216,11 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
         frame.is_met[index] = frame.is_met[index] || frame.special_values[index].is_shown;
     }
     frame.is_met = met_as_asked(asked, impl.volume, std::move(frame.is_met));
-    read_frame(impl.picture.drawn(), impl.data.precision(), facts, request.with_buffers, frame);
+    if (request.for_screen) {
+        frame.screen = impl.screen_pass().read(impl.picture.drawn());
+    } else {
+        read_frame(impl.picture.drawn(), impl.data.precision(), facts, request.with_buffers, frame);
+    }
     const DeviceWork after = impl.device.work();
     frame.submissions = after.submissions - before.submissions;
     frame.host_waits = after.host_waits - before.host_waits;

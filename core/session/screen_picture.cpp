@@ -3,6 +3,7 @@
 #include <core/annotation/plan.hpp>
 #include <core/base/milliseconds.hpp>
 #include <core/render/frame_stage.hpp>
+#include <core/render/picture/screen_pass.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
 #include <core/session/still_picture.hpp>
@@ -19,30 +20,6 @@ namespace {
 
 constexpr std::size_t n_channels = 4;
 
-/** std::lround(255 * value), of what is not beyond 0 and 1, in a form that processors do many of at once. */
-std::uint8_t level(double value) {
-    const double scaled = 255 * value;
-    const int whole = static_cast<int>(scaled);
-    return static_cast<std::uint8_t>(whole + (scaled - whole >= 0.5 ? 1 : 0));
-}
-
-/** What is no number counts as 0. */
-double clamped(double value) { return std::min(1.0, value > 0 ? value : 0.0); }
-
-std::vector<std::uint8_t> bytes_of(std::span<const double> color) {
-    std::vector<std::uint8_t> bytes(color.size());
-    constexpr double grey = 0.5;
-    for (std::size_t pixel = 0; pixel < color.size(); pixel += n_channels) {
-        const double alpha = clamped(color[pixel + 3]);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const double value = clamped(color[pixel + channel]);
-            bytes[pixel + channel] = level(alpha >= 1 ? value : alpha * value + (1 - alpha) * grey);
-        }
-        bytes[pixel + 3] = 255;
-    }
-    return bytes;
-}
-
 std::size_t nearest(std::uint32_t place, std::uint32_t n_places, std::uint32_t n_pixels) {
     return static_cast<std::size_t>(std::uint64_t{place} * n_pixels / n_places);
 }
@@ -57,15 +34,15 @@ Frame stretched_part(const Frame& frame, std::uint32_t width, std::uint32_t heig
         const std::size_t from_row = nearest(static_cast<std::uint32_t>(row), height, frame.height);
         for (int column = box.left; column < box.right; ++column) {
             const std::size_t from = from_row * frame.width + nearest(static_cast<std::uint32_t>(column), width, frame.width);
-            const auto first = frame.color.begin() + static_cast<std::ptrdiff_t>(n_channels * from);
-            part.color.insert(part.color.end(), first, first + n_channels);
+            for (std::size_t channel = 0; channel < n_channels; ++channel) {
+                part.color.push_back(frame.screen[n_channels * from + channel] / 255.0);
+            }
         }
     }
     return part;
 }
 
-std::vector<std::uint8_t> stretched(const std::vector<std::uint8_t>& rgba, const Frame& frame, std::uint32_t width,
-                                    std::uint32_t height) {
+std::vector<std::uint8_t> stretched(const Frame& frame, std::uint32_t width, std::uint32_t height) {
     std::vector<std::uint8_t> result(n_channels * width * height);
     const std::size_t row_bytes = n_channels * width;
     std::size_t drawn_row = frame.height; // None.
@@ -78,7 +55,8 @@ std::vector<std::uint8_t> stretched(const std::vector<std::uint8_t>& rgba, const
         }
         drawn_row = from_row;
         for (std::uint32_t column = 0; column < width; ++column) {
-            const std::uint8_t* from = &rgba[n_channels * (from_row * frame.width + nearest(column, width, frame.width))];
+            const std::uint8_t* from =
+                &frame.screen[n_channels * (from_row * frame.width + nearest(column, width, frame.width))];
             std::copy_n(from, n_channels, to + n_channels * column);
         }
     }
@@ -97,20 +75,18 @@ void write_item(const AnnotationPlan::Item& item, double halo_radius, const Fram
     Drawing drawing = item.drawing;
     drawing.move(-box.left, -box.top);
     drawing.paint(part, item.ink, halo_radius);
-    const std::vector<std::uint8_t> bytes = bytes_of(part.color);
-    const std::size_t row_bytes = n_channels * part.width;
+    const std::size_t row_numbers = n_channels * part.width;
     for (std::size_t row = 0; row < part.height; ++row) {
         const std::size_t to = (static_cast<std::size_t>(box.top) + row) * picture.width + static_cast<std::size_t>(box.left);
-        std::copy_n(&bytes[row * row_bytes], row_bytes, &picture.rgba[n_channels * to]);
+        std::transform(&part.color[row * row_numbers], &part.color[row * row_numbers] + row_numbers,
+                       &picture.rgba[n_channels * to], screen_level);
     }
 }
 
 /** Writes the picture's pixels; annotation has its size, whatever the frame's. */
 void paint(const Frame& frame, const AnnotationPlan& annotation, ScreenPicture& picture) {
-    picture.rgba = bytes_of(frame.color);
-    if (frame.width != picture.width || frame.height != picture.height) {
-        picture.rgba = stretched(picture.rgba, frame, picture.width, picture.height);
-    }
+    const bool is_whole = frame.width == picture.width && frame.height == picture.height;
+    picture.rgba = is_whole ? frame.screen : stretched(frame, picture.width, picture.height);
     for (const AnnotationPlan::Item& item : annotation.items) {
         write_item(item, annotation.halo_radius, frame, picture);
     }
@@ -130,7 +106,7 @@ AnnotationPlan annotation_of(const Scene& scene, const FrameRequest& request, co
 ScreenPicture draw_for_screen(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const ScreenOptions& options,
                               const TaskControl* control) {
     FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
-    request.with_buffers = false;
+    request.for_screen = true;
     ScreenPicture picture;
     picture.width = request.width;
     picture.height = request.height;
@@ -149,7 +125,7 @@ ScreenPicture draw_for_screen(const Scene& scene, const RuntimeVolume& volume, R
     for (FrameRemark& remark : remarks_on(picture.frame.counts)) {
         picture.remarks.push_back(std::move(remark));
     }
-    picture.frame.color.clear();
+    picture.frame.screen.clear();
     picture.is_refinable = has_refinement(request);
     picture.milliseconds = picture.frame.render_milliseconds + milliseconds_since(drawn);
     return picture;

@@ -180,12 +180,23 @@ void Allocation::read(std::uint64_t offset, std::span<std::byte> data) const {
 }
 
 void Allocation::read_together(std::span<const Read> reads) {
-    if (reads.empty() || reads.front().from->m_mapped != nullptr) {
-        for (const Read& read : reads) {
-            read.from->read(0, read.data);
+    while (!reads.empty()) {
+        std::uint64_t bytes = 0;
+        std::size_t n = 0;
+        while (n < reads.size() && bytes + reads[n].data.size() <= Device::Impl::staging_bytes) {
+            bytes += reads[n++].data.size();
         }
-        return;
+        if (n < 2 || reads.front().from->m_mapped != nullptr) {
+            reads.front().from->read(0, reads.front().data);
+            reads = reads.subspan(1);
+        } else {
+            read_through_staging(reads.first(n));
+            reads = reads.subspan(n);
+        }
     }
+}
+
+void Allocation::read_through_staging(std::span<const Read> reads) {
     Device::Impl& impl = reads.front().from->m_device->impl();
     const std::lock_guard lock(impl.staging_mutex);
     const Staging& staging = impl.use_staging();
@@ -195,7 +206,6 @@ void Allocation::read_together(std::span<const Read> reads) {
         if (region.size == 0) {
             continue;
         }
-        assert(region.dstOffset + region.size <= Device::Impl::staging_bytes);
         impl.queue->record(CommandQueue::copies, [&](VkCommandBuffer commands) {
             vkCmdCopyBuffer(commands, read.from->m_buffer, staging.buffer, 1, &region);
         });

@@ -35,7 +35,7 @@ public:
      */
     void write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t granularity, const Producer& produce) const;
     void read(std::uint64_t offset, std::span<std::byte> data) const;
-    /** The beginnings of allocations of one device, with one wait; together no more than Device::Impl::staging_bytes. */
+    /** The beginnings of allocations of one device, with one wait for each Device::Impl::staging_bytes. */
     struct Read {
         const Allocation* from;
         std::span<std::byte> data;
@@ -47,6 +47,8 @@ private:
     void release() noexcept;
     /** Among the commands that are pending, if it is small. */
     bool write_in_turn(std::uint64_t offset, std::uint64_t bytes, const Producer& produce) const;
+    /** With one wait. */
+    static void read_through_staging(std::span<const Read> reads);
 
     const Device* m_device = nullptr;
     std::uint64_t m_bytes = 0;

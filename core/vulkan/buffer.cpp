@@ -34,6 +34,14 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) const 
 
 void Buffer::read(std::uint64_t offset, std::span<std::byte> data) const { m_impl->allocation.read(offset, data); }
 
+void Buffer::read_together(std::initializer_list<Read> reads) {
+    std::vector<Allocation::Read> parts;
+    for (const Read& read : reads) {
+        parts.push_back({&read.from->m_impl->allocation, read.data});
+    }
+    Allocation::read_together(parts);
+}
+
 std::vector<std::vector<std::uint32_t>> Buffer::read_words(std::initializer_list<const Buffer*> buffers) {
     std::vector<std::vector<std::uint32_t>> words;
     std::vector<Allocation::Read> reads;

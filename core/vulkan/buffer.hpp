@@ -7,6 +7,7 @@
 #include <core/vulkan/device.hpp>
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <type_traits>
 
@@ -41,7 +42,13 @@ public:
         return items;
     }
 
-    /** All of small buffers of one device, with one wait. */
+    struct Read {
+        const Buffer* from;
+        std::span<std::byte> data;
+    };
+    /** The beginnings of buffers of one device, with as few waits as the device's memory asks for. */
+    static void read_together(std::initializer_list<Read> reads);
+    /** All of small buffers of one device, likewise. */
     static std::vector<std::vector<std::uint32_t>> read_words(std::initializer_list<const Buffer*> buffers);
 
 private:

@@ -27,8 +27,8 @@ const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_c
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
     for (const char* kernel :
          {"picture/background", "picture/blend", "picture/condition", "isosurface/list_open_pixels", "picture/merge",
-          "picture/occlude", "picture/order_layers", "picture/take_layer", "volume/volume_begin", "volume/volume_finish",
-          "volume/volume_runs", "volume/volume_transparency"}) {
+          "picture/occlude", "picture/order_layers", "picture/screen", "picture/take_layer", "volume/volume_begin",
+          "volume/volume_finish", "volume/volume_runs", "volume/volume_transparency"}) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
     uses.push_back({.kernel = "picture/settle_flags", .choices = {pixel_group, {"CORE_PIXELS_EACH", {"8u"}}}});

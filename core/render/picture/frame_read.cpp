@@ -1,7 +1,11 @@
 #include <core/render/picture/frame_read.hpp>
+#include <core/render/picture/screen_pass.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <limits>
+#include <span>
 
 namespace elvis {
 
@@ -11,14 +15,18 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <class Real> void read_as(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) {
     const std::size_t n_pixels = frame.counts.pixels;
-    const std::vector<Real> colors = from.colors.read_items<Real>(4 * n_pixels);
+    const std::size_t n_read = with_buffers ? n_pixels : 0;
+    std::vector<Real> colors(4 * n_pixels), normals(3 * n_read);
+    std::vector<Mark> marks(n_read);
+    std::vector<Sample<Real>> samples(n_read);
+    Buffer::read_together({{&from.colors, std::as_writable_bytes(std::span(colors))},
+                           {&from.marks, std::as_writable_bytes(std::span(marks))},
+                           {&from.samples, std::as_writable_bytes(std::span(samples))},
+                           {&from.normals, std::as_writable_bytes(std::span(normals))}});
     frame.color.assign(colors.begin(), colors.end());
     if (!with_buffers) {
         return;
     }
-    const std::vector<Mark> marks = from.marks.read_items<Mark>(n_pixels);
-    const std::vector<Sample<Real>> samples = from.samples.read_items<Sample<Real>>(n_pixels);
-    const std::vector<Real> normals = from.normals.read_items<Real>(3 * n_pixels);
     frame.value.assign(n_pixels, not_a_number);
     frame.depth.assign(n_pixels, not_a_number);
     frame.normal.assign(3 * n_pixels, not_a_number);
@@ -50,6 +58,13 @@ Frame background_frame(const FrameRequest& request) {
     frame.height = request.height;
     const std::size_t n_pixels = std::size_t{request.width} * request.height;
     frame.counts.pixels = n_pixels;
+    if (request.for_screen) {
+        const std::array<std::uint8_t, 4> rgba = on_screen(request.background);
+        for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
+            frame.screen.insert(frame.screen.end(), rgba.begin(), rgba.end());
+        }
+        return frame;
+    }
     frame.color.reserve(4 * n_pixels);
     for (std::size_t pixel = 0; pixel < n_pixels; ++pixel) {
         frame.color.insert(frame.color.end(), request.background.begin(), request.background.end());
