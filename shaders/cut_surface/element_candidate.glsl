@@ -12,13 +12,15 @@
 struct core_side {
     bool is_inside, is_on_face;
     uint key;
+    // On which the point lies within rounding; counted where it lies on one.
+    uint n_faces;
 };
 
 // Classifies a converged point near a face, with each face's own rounding.
 core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction) {
     const elvis_vec3 error = elvis_real(2) * elvis_vec3(inverse.error0, inverse.error1, inverse.error2);
     const elvis_vec3 towards_viewer = -elvis_vec3(dot(inverse.row0, direction), dot(inverse.row1, direction), dot(inverse.row2, direction));
-    core_side side = core_side(true, false, 0u);
+    core_side side = core_side(true, false, 0u, 0u);
     for (int face = 0; face < CORE_N_FACES; ++face) {
         const elvis_vec4 constraint = core_face_constraint(face);
         const elvis_real distance = dot(constraint.xyz, xi) + constraint.w;
@@ -26,6 +28,7 @@ core_side core_side_of(elvis_vec3 xi, core_inverse inverse, elvis_vec3 direction
         const bool is_active = distance >= -tolerance;
         side.is_inside = side.is_inside && distance <= tolerance;
         side.is_on_face = side.is_on_face || is_active;
+        side.n_faces += is_active ? 1u : 0u;
         side.key = is_active && dot(constraint.xyz, towards_viewer) > elvis_real(0) ? 1u : side.key;
     }
     return side;
@@ -41,6 +44,7 @@ void core_add_own_side(uint element, elvis_vec3 xi, core_inverse inverse, elvis_
     const bool is_active = g.value >= -tolerance;
     side.is_inside = side.is_inside && g.value <= tolerance;
     side.is_on_face = side.is_on_face || is_active;
+    side.n_faces += is_active ? 1u : 0u;
     side.key = is_active && dot(g.slope, towards_viewer) > elvis_real(0) ? 1u : side.key;
 }
 #endif
@@ -113,7 +117,7 @@ core_side core_judge_candidate(uint element, core_element_candidate candidate, c
                                bool has_converged, elvis_real excess, elvis_real most) {
     const elvis_vec3 xi = elvis_vec3(candidate.state.x, candidate.state.y, candidate.state.z);
     const bool is_inside = has_converged && excess <= most;
-    core_side side = core_side(is_inside, is_inside && excess >= -most, 0u);
+    core_side side = core_side(is_inside, is_inside && excess >= -most, 0u, 0u);
     if (side.is_on_face) {
         side = core_side_of(xi, inverse, direction);
     }
@@ -141,4 +145,6 @@ void core_take_candidate(bool is_accepted, core_element_candidate candidate, uin
     found.y = is_better ? candidate.state.y : found.y;
     found.z = is_better ? candidate.state.z : found.z;
     found.is_on_face = is_better ? side.is_on_face : found.is_on_face;
+    // Where two faces of an element meet the domain may end, however many elements do.
+    found.is_ambiguous = found.is_ambiguous || (is_accepted && side.n_faces > 1u);
 }

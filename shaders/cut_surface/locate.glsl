@@ -167,7 +167,7 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
     const bool is_on_face = found.element != CORE_NO_ELEMENT && found.is_on_face;
     found.n_failures = is_on_face ? found.n_failures : 0u;
     // Only two are compared (cut_surface/other_values.comp).
-    found.is_ambiguous = core_lists_others != 0u && found.n_candidates > 2u;
+    found.is_ambiguous = found.is_ambiguous || (core_lists_others != 0u && found.n_candidates > 2u);
     return found;
 }
 

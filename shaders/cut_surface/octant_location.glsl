@@ -129,6 +129,6 @@ core_location core_locate_in_octants(core_cut_point point, vec3 in_hierarchy, fl
         core_step_in_octant(point, candidate, search, found);
     }
     found.is_cut_short = search.is_cut_short || candidate.in_element.element != CORE_NO_ELEMENT || search.stack_size > 0u;
-    found.is_ambiguous = core_lists_others != 0u && found.n_candidates > 1u;
+    found.is_ambiguous = found.is_ambiguous || (core_lists_others != 0u && found.n_candidates > 1u);
     return found;
 }

@@ -131,9 +131,10 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
 
     // Quadratic convergence: |s_k+1| ~ C |s_k|^2 with C = |s_k| / |s_k-1|^2, if both steps started at predictions. Asking a quarter
     // of the rounding keeps a factor for the estimate; the change itself is the criterion where the estimate does not apply. C
-    // depends on the direction of the steps and can come out far too small: it is taken to be at least 1, about what a quadratic
-    // mapping has whose curvature is as large as its Jacobian.
-    const bool is_predicted = was_inside && step * step <= tolerance &&
+    // depends on the direction of the steps and can come out far too small: it is taken to be at least 1, which bounds the element's
+    // curvature where one is known, and at least 16 elsewhere.
+    const elvis_real least_curvature = state.curvature <= elvis_real(1) ? elvis_real(1) : elvis_real(16);
+    const bool is_predicted = was_inside && step * step * least_curvature <= tolerance &&
                               step * step * step <= elvis_real(0.25LF) * tolerance * state.last_step * state.last_step;
     const bool converged = is_regular && ((has_change && is_predicted) || (has_change && change <= tolerance));
     const elvis_real rounding = elvis_real(2) * CORE_CONSTRAINT_NORM * tolerance;

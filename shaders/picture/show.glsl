@@ -21,6 +21,7 @@ struct core_location {
     uint n_candidates;
     // Those that hold it by more than rounding: of a valid mesh one at most.
     uint n_holders;
+    // More may be shown here than the elements that share the point show: other values, or nothing.
     bool is_ambiguous;
     // One of those that are not shown, and the point in it.
     uint other;
@@ -61,7 +62,7 @@ uint core_merge(uint pixel, core_cut_point point, core_location found, elvis_rea
     // Where classes meet; within one, the caller says so or cut_surface/other_values.comp does.
     const bool is_other_value =
         is_other_class && !(abs(value - core_samples[pixel].value) <= elvis_real(core_value_tolerance));
-    owner |= is_other_value || (is_shown && found.is_ambiguous) ? CORE_OWNER_AMBIGUOUS : 0u;
+    owner |= is_other_value || ((is_shown || is_other_class) && found.is_ambiguous) ? CORE_OWNER_AMBIGUOUS : 0u;
     const bool is_held_twice = is_other_class && found.n_holders > 0u && (old_owner & CORE_OWNER_ON_FACE) == 0u;
     owner |= is_held_twice || ((is_shown || is_other_class) && found.n_holders > 1u) ? CORE_OWNER_OVERLAP : 0u;
     owner |= is_other_class ? old_owner & (CORE_OWNER_AMBIGUOUS | CORE_OWNER_OVERLAP) : 0u;

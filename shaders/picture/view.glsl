@@ -88,8 +88,11 @@ core_cut_point core_cut_pixel(core_cut_column column, elvis_real row) {
     point.is_hit = direction.w != elvis_real(0) && from_eye > least;
     point.is_near = direction.w != elvis_real(0) && abs(from_eye) <= least;
     point.is_doubtful = direction.w != elvis_real(0) && abs(from_eye - least) <= along_ray;
-    const elvis_vec3 size = terms.xyz + (abs(point.t) + terms.w / abs(direction.w)) * abs(direction.xyz);
-    point.error = elvis_real(4) * CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
+    // In units of roundoff: base and direction lose four each, of their terms; the quotient t, by which Vulkan lets a division lose five,
+    // what the level and the slope lose, too; the product and the sum one each.
+    const elvis_real of_t = (elvis_real(4) * terms.w + elvis_real(4) * stretch * abs(point.t)) / abs(direction.w) + elvis_real(10) * abs(point.t);
+    const elvis_vec3 size = elvis_real(5) * terms.xyz + of_t * abs(direction.xyz);
+    point.error = CORE_ROUNDOFF * max(max(size.x, size.y), size.z);
     return point;
 }
 

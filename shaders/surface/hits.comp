@@ -114,12 +114,24 @@ bool core_is_off_surface(core_surface_ray ray, core_hit hit, elvis_real along_ra
     return along_ray * cosine > CORE_HEIGHT_ERROR * (abs(hit.t) * stretch + length(ray.origin + hit.t * ray.direction));
 }
 
+// What unit normals may be off without a flag.
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_NORMAL_ERROR elvis_real(1e-9LF)
+#else
+#define CORE_NORMAL_ERROR elvis_real(1e-3LF)
+#endif
+
+// Whether the error of the point turns the normal farther: near the apex of a cone. Nothing is known where there is no bound.
+bool core_is_turned(core_hit hit, elvis_real along_ray) {
+    return hit.bending < CORE_FAR && along_ray * hit.bending > CORE_NORMAL_ERROR;
+}
+
 // Writes what the pixel's ray meets, if anything is wanted of it. `along_ray`: the error of the point.
 void core_store_hit(uint pixel, core_surface_ray ray, core_hit hit, bool is_wanted, elvis_real along_ray) {
     const bool is_hit = hit.is_hit && is_wanted;
     core_hits[pixel].t = is_hit ? hit.t : CORE_FAR;
     // Where the ray runs along the surface, the point's error outgrows what pictures may show.
-    const bool is_vague = is_hit && along_ray > core_shape[0].w;
+    const bool is_vague = is_hit && (along_ray > core_shape[0].w || core_is_turned(hit, along_ray));
     const uint flags = (is_wanted && hit.is_undecided ? CORE_FLAG_UNDECIDED_IN_FRONT : is_vague ? CORE_FLAG_UNDECIDED : 0u) |
                        (is_wanted && hit.is_cut_short ? CORE_FLAG_WORK_LIMIT : 0u) |
                        (is_wanted && hit.is_estimated ? CORE_FLAG_ESTIMATED : 0u) |

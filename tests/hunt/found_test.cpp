@@ -457,6 +457,53 @@ TEST_CASE("Where the oracle says that a ray meets a face, it does") {
     CHECK(n_crossings > 10);
 }
 
+TEST_CASE("Near the apex of a cone, rounding that turns the normal is flagged") {
+    const TemporaryFile file("cube.h5");
+    const oracle::Map cube = [](const oracle::Vector& xi) -> oracle::Vector { return xi; };
+    write_hexahedra(file.path(), {cube}, faces_of_one());
+    FrameRequest request = request_from({1.7, 1.1, 4.1}, {0.11, 0.23, 0.31});
+    request.camera.field_of_view = 0.08;
+    request.lighting.emplace();
+    Surface surface = colored_surface();
+    surface.geometry = CutShape{Cone{{0.11, 0.23, 0.31}, {0.4, -0.9, -0.7}, 0, 0.6, true}};
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, Precision::float32);
+    std::cout << "apex: " << tally.far + tally.near << " silent, " << tally.flagged << " of " << tally.pixels << " flagged\n";
+    CHECK(tally.flagged > 100);
+    CHECK(tally.far + tally.near == 0);
+}
+
+TEST_CASE("In bent pyramids a value is that of the pixel's point") {
+    // Newton's method ended a step too early: where no bound of the mapping's curvature is known it had been taken to be 1.
+    const TemporaryFile file("shell.h5");
+    oracle::generate(
+        R"({"generator": 1, "mesh": "shell", "shape": "pyramid", "elements": [2, 2, 1], "layers": 2, "geometry_order": 2,
+                         "order": 4, "field": "waves"})",
+        file.path());
+    FrameRequest request;
+    request.width = 800;
+    request.height = part_rows;
+    request.part = {48, 600};
+    request.camera.orthographic = true;
+    request.camera.eye = {1.3683034274963923, 0.6662418633934617, -1.20847840940015};
+    request.camera.look_at = {-0.1307684921623505, 0.07410543585245408, 0.11684720633802809};
+    request.camera.up = {0.3673799055091592, -0.9300709677374525, 0.0};
+    request.camera.height = 1.674399855648155;
+    Surface surface = colored_surface();
+    surface.geometry = CutShape{ImplicitSurface{
+        .expression = "0.5898072607402618 * (z - 0.67859834454584711) + 0.4033737376676072 * 0.5898072607402618 * (x + "
+                      "0.67859834454584644) + 0.21897386597872365 * sin(5.0894968319180443 * 0.5898072607402618 * (x + "
+                      "0.67859834454584644)) * cos(5.0894968319180443 * 0.5898072607402618 * (y + 0.28108463771482006))"}};
+    request.surfaces = {surface};
+    const RuntimeVolume volume = oracle::open_volume(file.path());
+    const Frame frame = Renderer(test::device(), volume, Precision::float32).render(request);
+    const std::size_t pixel = (58 - 48) * 800 + 387;
+    REQUIRE(frame.element[pixel] == 53);
+    // By the oracle; its slope is 4.4, and the point is off by 1e-6.
+    CHECK(frame.value[pixel] == Approx(0.752930248862439).margin(2e-5));
+    CHECK(frame.flags[pixel] == 0);
+}
+
 TEST_CASE("Where a surface's point is vague, so is whether it is clipped") {
     // x y - 1e8 has errors of 6 in single precision, and a slope of 14142: points are off by 4e-4 along the ray.
     const TemporaryFile file("far.h5");

@@ -94,4 +94,37 @@ TEST_CASE("a plane in inner faces is flagged where the elements' values differ, 
     }
 }
 
+TEST_CASE("where a face between elements ends in the boundary it is not decided that a point lies inside") {
+    // Pixels' points have coordinates of few digits: a column lies in the face x = 1/2, whose upper end is in the boundary y
+    // = 1.
+    VolumeData data = cells(Shape::hexahedron, 1, 0, [](const Vector& x) { return x.y(); });
+    data.classes.front().field_coefficients.assign(data.classes.front().field_coefficients.size(), 0.25);
+    const TemporaryFile file("edge.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request;
+    request.width = request.height = 33;
+    request.camera.orthographic = true;
+    request.camera.eye = {0.5, 1, 4};
+    request.camera.look_at = {0.5, 1, 0};
+    request.camera.up = {0, 1, 0};
+    request.camera.height = 33.0 / 64;
+    Surface surface;
+    surface.geometry = CutPlane{{0, 0, 1, -0.25}};
+    surface.colors.points = {{0, {0, 0, 1}}, {1, {1, 0, 0}}};
+    request.surfaces = {surface};
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        const Frame frame = Renderer(device(), volume, precision).render(request);
+        const auto is_undecided = [&](std::size_t column, std::size_t row) {
+            return (frame.flags[row * request.width + column] & pixel_flag::undecided) != 0;
+        };
+        CHECK(is_undecided(16, 16));
+        CHECK(is_undecided(20, 16));
+        CHECK_FALSE(is_undecided(16, 20));
+        CHECK_FALSE(is_undecided(20, 20));
+        CHECK(frame.element[20 * request.width + 16] >= 0);
+        CHECK(frame.element[12 * request.width + 16] < 0);
+    }
+}
+
 } // namespace elvis::oracle

@@ -195,8 +195,9 @@ TEST_CASE("rays with too many eigenvalues for a driver's loops are drawn from th
     CHECK(bernstein.counts.hit_pixels > 100);
     CHECK(companion.counts.hit_pixels == bernstein.counts.hit_pixels);
     CHECK(companion.counts.work_limit_pixels == 0);
-    // More than once where the first way is given up.
-    CHECK(companion.counts.fits > bernstein.counts.fits);
+    // More than once where the first way is given up; drivers of graphics cards end no loop.
+    const bool ends_loops = device().summary().type == "cpu";
+    CHECK(companion.counts.fits >= bernstein.counts.fits + (ends_loops ? 1 : 0));
 }
 
 TEST_CASE("projection of a higher degree is nearer to the isosurface") {
