@@ -325,6 +325,9 @@ void need_parts_can_draw(const Scene& scene) {
     if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.arrows.has_value(); })) {
         refuse(scene, "arrows");
     }
+    if (scene.lic || std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.lic.has_value(); })) {
+        refuse(scene, "line integral convolution");
+    }
     if (scene.threshold) {
         refuse(scene, "a threshold");
     }

@@ -17,13 +17,15 @@ namespace elvis {
 
 namespace {
 
-/** Lines look at the pixels around them. */
+/** Lines, and line integral convolution, look at the pixels around them. */
 std::uint32_t margin_of(const FrameRequest& request) {
     double reach = 0;
     for (const Surface& surface : request.surfaces) {
         // Half of a line's width, and of pixels that are met by halves their neighbours.
         reach = surface.contours ? std::max(reach, surface.contours->style.width + 2) : reach;
         reach = surface.mesh_lines ? std::max(reach, surface.mesh_lines->style.width + 2) : reach;
+        // Curves look at the pixels beside them, and at what is beside those.
+        reach = surface.lic ? std::max(reach, surface.lic->length + 3) : reach;
     }
     return part_rows * static_cast<std::uint32_t>(std::ceil(reach / part_rows));
 }

@@ -44,6 +44,10 @@ FrameRequest request_for(const FrameRequest& request, FrameStage stage, std::uin
         if (is_coarser(surface)) {
             surface.subdivisions = coarse_subdivisions;
         }
+        if (surface.lic) {
+            surface.lic->length /= divisor;
+            surface.lic->grain = std::max(1u, surface.lic->grain / divisor);
+        }
         if (!with_lines) {
             surface.contours.reset();
             surface.mesh_lines.reset();

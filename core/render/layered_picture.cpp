@@ -27,7 +27,7 @@ void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, F
     m_frame = &frame;
     if (!m_layer || m_layer->width != request.width || m_layer->height != request.height) {
         m_layer.reset();
-        m_condition_values.reset();
+        m_other_values.reset();
         m_layer = std::make_unique<Layer>(m_device, m_precision, request.width, request.height);
     }
     m_is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through() && !request.volume;
@@ -41,14 +41,14 @@ void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, F
 
 void LayeredPicture::provide(const Surface& surface) {
     m_color_pass.provide(surface, is_lit(surface));
-    if (surface.conditions.empty()) {
-        return;
-    }
-    if (!m_condition_pass) {
+    if (!surface.conditions.empty() && !m_condition_pass) {
         m_condition_pass = std::make_unique<ConditionPass>(m_device, m_precision);
     }
-    if (!m_condition_values) {
-        m_condition_values = std::make_unique<Layer>(m_device, m_precision, m_layer->width, m_layer->height);
+    if (surface.lic && !m_lic_pass) {
+        m_lic_pass = std::make_unique<LicPass>(m_device, m_precision);
+    }
+    if ((!surface.conditions.empty() || surface.lic) && !m_other_values) {
+        m_other_values = std::make_unique<Layer>(m_device, m_precision, m_layer->width, m_layer->height);
     }
 }
 
@@ -56,14 +56,14 @@ LayeredPicture::Setting LayeredPicture::setting_of(const SurfaceDrawing& drawing
     const Surface& surface = drawing.surface();
     const SurfaceTraits& traits = drawing.traits();
     Setting setting;
-    const bool wants_places = surface.has_lines() || !surface.conditions.empty();
+    const bool wants_places = surface.has_lines() || !surface.conditions.empty() || surface.lic;
     if ((wants_places && traits.plane == nullptr) || traits.isosurfaces != nullptr) {
         setting.places = &provide_buffer(m_places, m_device, m_layer->n_pixels() * place_bytes(m_precision));
     }
     // Edges are nothing behind which much would be hidden from them.
     setting.opaque = m_is_alone || traits.wires != nullptr ? nullptr : m_merge_pass.depths();
-    // Lines look at neighbouring pixels, hidden ones included.
-    setting.is_occluded = setting.opaque != nullptr && m_request->sharing.depths && !surface.has_lines();
+    // Lines and line integral convolution look at neighbouring pixels, hidden ones included.
+    setting.is_occluded = setting.opaque != nullptr && m_request->sharing.depths && !surface.has_lines() && !surface.lic;
     return setting;
 }
 
@@ -78,7 +78,8 @@ void LayeredPicture::draw(SurfaceDrawing& drawing, std::size_t index, std::uint3
     for (std::uint32_t round = 0; wanted.n_pixels > 0 && round < max_rounds; ++round) {
         n_hidden += draw_layer(drawing, setting, wanted, beyond);
         m_color_pass.draw(*m_layer, surface, index, drawing.rays(), m_is_alone ? m_request->background : Color{},
-                          drawing.offset(), common_flags, is_lit(surface) ? &*m_request->lighting : nullptr);
+                          drawing.offset(), common_flags, is_lit(surface) ? &*m_request->lighting : nullptr,
+                          surface.lic ? &m_lic_pass->shades() : nullptr);
         wanted = merge(drawing, index);
         // A plane is met once, and what edges hide of others is nothing.
         if (traits.plane != nullptr || traits.wires != nullptr) {
@@ -100,7 +101,7 @@ void LayeredPicture::draw(SurfaceDrawing& drawing, std::size_t index, std::uint3
 std::uint32_t LayeredPicture::draw_layer(SurfaceDrawing& drawing, const Setting& setting, const MergePass::Wanted& wanted,
                                          const Buffer* beyond) {
     const Surface& surface = drawing.surface();
-    const bool wants_normals = m_request->with_buffers || is_lit(surface) || surface.has_lines();
+    const bool wants_normals = m_request->with_buffers || is_lit(surface) || surface.has_lines() || surface.lic;
     const LayerTarget target{*m_layer, beyond, wants_normals, setting.places, wanted.first_row, wanted.end_row};
     std::uint32_t n_hidden = 0;
     m_layer->marks.fill(0);
@@ -113,6 +114,9 @@ std::uint32_t LayeredPicture::draw_layer(SurfaceDrawing& drawing, const Setting&
         m_frame->counts.hidden_pixels += n_hidden;
     }
     drawing.finish(target, m_frame->counts);
+    if (surface.lic) {
+        convolve(drawing, setting);
+    }
     if (setting.opaque != nullptr) {
         n_hidden += m_occlusion_pass.hide(*m_layer, *setting.opaque);
     }
@@ -123,9 +127,23 @@ std::uint32_t LayeredPicture::draw_layer(SurfaceDrawing& drawing, const Setting&
 void LayeredPicture::cut_where_conditions_fail(SurfaceDrawing& drawing, const LayerTarget& target) {
     for (const Condition& condition : drawing.surface().conditions) {
         const ConditionLimit limit = drawing.limit_of(condition);
-        drawing.draw_condition(condition, target, *m_condition_values, m_frame->counts);
-        m_condition_pass->judge(*m_layer, *m_condition_values, limit);
+        drawing.draw_field(condition.field, target, *m_other_values, m_frame->counts);
+        m_condition_pass->judge(*m_layer, *m_other_values, limit);
     }
+}
+
+/** Colours alone are to differ: passes that evaluate the vectors put their flags elsewhere. */
+void LayeredPicture::convolve(SurfaceDrawing& drawing, const Setting& setting) {
+    const Lic& lic = *drawing.surface().lic;
+    m_other_values->rows = m_layer->rows;
+    m_lic_pass->begin(*m_layer, *m_other_values);
+    const LayerTarget target{.layer = *m_other_values, .wants_normals = false, .places = setting.places};
+    for (std::uint32_t component = 0; component < lic.vectors.size(); ++component) {
+        drawing.draw_field(lic.vectors[component], target, *m_other_values, m_frame->counts);
+        m_lic_pass->take(*m_layer, *m_other_values, component);
+    }
+    m_lic_pass->convolve(*m_layer, drawing.rays(), drawing.traits().plane != nullptr, drawing.vectors_of(lic), lic,
+                         m_request->place().first_row);
 }
 
 /** Returns where what is behind is wanted. */

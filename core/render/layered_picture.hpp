@@ -47,6 +47,7 @@ private:
     std::uint32_t draw_layer(SurfaceDrawing& drawing, const Setting& setting, const MergePass::Wanted& wanted,
                              const Buffer* beyond);
     void cut_where_conditions_fail(SurfaceDrawing& drawing, const LayerTarget& target);
+    void convolve(SurfaceDrawing& drawing, const Setting& setting);
     MergePass::Wanted merge(const SurfaceDrawing& drawing, std::size_t index);
     ViewStart start_of_view() const;
     bool is_lit(const Surface& surface) const { return m_request->lighting.has_value() && surface.is_lit; }
@@ -61,9 +62,11 @@ private:
     std::unique_ptr<Layer> m_layer;
     /** Of the layer's pixels. */
     std::optional<Buffer> m_places;
-    /** Values of conditions' fields, and what judges them: there when a surface has conditions. */
-    std::unique_ptr<Layer> m_condition_values;
+    /** Values of other fields than those that give colours, and what is done with them: there when a surface has conditions,
+     * or line integral convolution. */
+    std::unique_ptr<Layer> m_other_values;
     std::unique_ptr<ConditionPass> m_condition_pass;
+    std::unique_ptr<LicPass> m_lic_pass;
     const FrameRequest* m_request = nullptr;
     Frame* m_frame = nullptr;
     /** A single surface that hides what is behind it needs no merging. */

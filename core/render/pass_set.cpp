@@ -1,6 +1,7 @@
 #include <core/base/overloaded.hpp>
 #include <core/render/pass_set.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -40,6 +41,9 @@ void PassSet::keep(const FrameRequest& request) {
         }
         for (const Condition& condition : surface.conditions) {
             keep_field(condition.field);
+        }
+        if (surface.lic) {
+            std::ranges::for_each(surface.lic->vectors, keep_field);
         }
     }
     if (request.volume) {

@@ -183,6 +183,21 @@ struct MeshLines {
     LineStyle style{1, std::array<double, 3>{0, 0, 0}, std::nullopt};
 };
 
+/**
+ * Line integral convolution: colours become darker, streak by streak along a vector field's part in the surface's tangent
+ * plane. All lengths are in pixels (core/render/picture/lic_pass.hpp).
+ */
+struct Lic {
+    /** The vector's components along x, y and z. */
+    std::array<FieldChoice, 3> vectors{};
+    /** Of the curve over which noise is averaged, on each side of a pixel. */
+    double length = 20;
+    /** In [0, 1]: colours are multiplied by 1 - contrast to 1. */
+    double contrast = 0.6;
+    /** Across one value of the noise. */
+    std::uint32_t grain = 1;
+};
+
 struct Surface {
     SurfaceGeometry geometry;
     FieldChoice field{};
@@ -206,6 +221,8 @@ struct Surface {
     std::optional<std::array<double, 3>> outside{};
     /** Whether the picture's lighting is for this surface, too. */
     bool is_lit = true;
+    /** Not of wires, nor of what has values of its own. */
+    std::optional<Lic> lic{};
 
     /** Whether something behind it can be seen through it. */
     bool is_see_through() const { return opacity < 1 || !clip.empty() || !conditions.empty(); }

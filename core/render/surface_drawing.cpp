@@ -1,6 +1,8 @@
 #include <core/base/bounds.hpp>
 #include <core/render/surface_drawing.hpp>
 
+#include <cmath>
+
 namespace elvis {
 
 namespace {
@@ -45,12 +47,22 @@ SurfaceDrawing::SurfaceDrawing(const FrameRequest& request, const Surface& surfa
 void SurfaceDrawing::provide() {
     std::visit([this](const auto& kind) { provide(kind); }, m_surface.geometry);
     for (const Condition& condition : m_surface.conditions) {
-        FieldPasses& passes = m_passes.of(condition.field);
-        if (m_traits.plane != nullptr) {
-            passes.cut_planes(false);
-        } else {
-            passes.point_values();
+        provide_values(condition.field);
+    }
+    if (m_surface.lic) {
+        for (const FieldChoice& component : m_surface.lic->vectors) {
+            provide_values(component);
         }
+    }
+}
+
+/** What draw_field() needs. */
+void SurfaceDrawing::provide_values(const FieldChoice& field) {
+    FieldPasses& passes = m_passes.of(field);
+    if (m_traits.plane != nullptr) {
+        passes.cut_planes(false);
+    } else {
+        passes.point_values();
     }
 }
 
@@ -62,11 +74,10 @@ void SurfaceDrawing::finish(const LayerTarget& target, FrameCounts& counts) {
     std::visit([&](const auto& kind) { finish(kind, target, counts); }, m_surface.geometry);
 }
 
-void SurfaceDrawing::draw_condition(const Condition& condition, const LayerTarget& target, const Layer& values,
-                                    FrameCounts& counts) {
-    m_fields.upload(condition.field, m_request.time_step);
-    const ShownComponent component = m_fields.component(condition.field);
-    FieldPasses& passes = m_passes.of(condition.field);
+void SurfaceDrawing::draw_field(const FieldChoice& field, const LayerTarget& target, const Layer& values, FrameCounts& counts) {
+    m_fields.upload(field, m_request.time_step);
+    const ShownComponent component = m_fields.component(field);
+    FieldPasses& passes = m_passes.of(field);
     if (m_traits.plane == nullptr) {
         passes.point_values().draw(component, target, values.samples, counts);
         return;
@@ -80,6 +91,16 @@ ConditionLimit SurfaceDrawing::limit_of(const Condition& condition) {
     const double offset = m_fields.upload(condition.field, m_request.time_step);
     return {condition.value - offset, m_fields.value_error(condition.field, m_request.time_step, offset), condition.is_above,
             condition.takes_equal};
+}
+
+LicPass::Vectors SurfaceDrawing::vectors_of(const Lic& lic) {
+    LicPass::Vectors vectors;
+    for (std::size_t i = 0; i < lic.vectors.size(); ++i) {
+        vectors.offsets[i] = m_fields.upload(lic.vectors[i], m_request.time_step);
+        // The offset is added again: errors are those of whole values.
+        vectors.error = std::hypot(vectors.error, m_fields.value_error(lic.vectors[i], m_request.time_step, 0));
+    }
+    return vectors;
 }
 
 LinePass& SurfaceDrawing::lines_on(const CutShape& shape) {

@@ -10,6 +10,7 @@
 #include <core/render/lines/line_request.hpp>
 #include <core/render/pass_set.hpp>
 #include <core/render/picture/condition_pass.hpp>
+#include <core/render/picture/lic_pass.hpp>
 
 namespace elvis {
 
@@ -28,10 +29,12 @@ public:
     void draw(const LayerTarget& target, FrameCounts& counts);
     /** What rests on that: lines, colours by another field, and a plane where it lies in no element. */
     void finish(const LayerTarget& target, FrameCounts& counts);
-    /** Of all pixels that show the surface: values of a condition's field, into the samples of `values`. */
-    void draw_condition(const Condition& condition, const LayerTarget& target, const Layer& values, FrameCounts& counts);
-    /** What those values are compared with. */
+    /** Of all pixels that show the surface in `target`: values of another field, into the samples of `values`. */
+    void draw_field(const FieldChoice& field, const LayerTarget& target, const Layer& values, FrameCounts& counts);
+    /** What values of a condition's field are compared with. */
     ConditionLimit limit_of(const Condition& condition);
+    /** Of the vectors whose components' values are drawn. */
+    LicPass::Vectors vectors_of(const Lic& lic);
 
     const Surface& surface() const { return m_surface; }
     const SurfaceTraits& traits() const { return m_traits; }
@@ -40,6 +43,7 @@ public:
     double offset() const { return m_offset; }
 
 private:
+    void provide_values(const FieldChoice& field);
     void provide(const CutPlane& plane);
     void provide(const CutShape& shape);
     void provide(const Isosurfaces& isosurfaces);

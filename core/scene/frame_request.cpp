@@ -10,6 +10,7 @@
 #include <core/scene/color/color_map.hpp>
 #include <core/scene/color/transfer.hpp>
 #include <core/scene/default_surfaces.hpp>
+#include <core/scene/lic.hpp>
 #include <core/scene/line_width.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
@@ -232,6 +233,9 @@ Surface make_surface(const SceneSurface& own, const Scene& scene, const RuntimeV
     if (traits.wires == nullptr && !traits.has_own_values) {
         surface.contours = contours_of(own.contours ? own.contours : scene.contours, map, surface.colors, range, scene.size);
         surface.mesh_lines = mesh_lines_of(own.mesh_lines ? own.mesh_lines : scene.mesh_lines);
+    }
+    if (traits.wires == nullptr && !traits.has_own_values && !own.streamlines && (own.lic || scene.lic)) {
+        surface.lic = lic_of(own.lic ? *own.lic : *scene.lic, scene, volume);
     }
     surface.subdivisions = scene.subdivisions;
     surface.clip = own.clip;

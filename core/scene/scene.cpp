@@ -185,6 +185,9 @@ Scene scene_of(const nlohmann::json& document, const std::string& path) {
     if (root.has("mesh_lines")) {
         scene.mesh_lines = read_line_style(root.object("mesh_lines"));
     }
+    if (root.has("lic")) {
+        scene.lic = read_lic(root.object("lic"));
+    }
     if (root.has("subdivisions")) {
         scene.subdivisions = root.integer("subdivisions");
     }

@@ -115,6 +115,15 @@ struct SceneArrows {
     std::optional<double> scale{};
 };
 
+/** Line integral convolution on surfaces. */
+struct SceneLic {
+    /** A vector field or expression. */
+    std::string field{};
+    /** In pixels, on each side; by default by the picture's size. */
+    std::optional<double> length{};
+    double contrast = Lic{}.contrast;
+};
+
 /** What it lacks it takes from the scene. */
 struct SceneSurface {
     SurfaceGeometry geometry;
@@ -126,6 +135,7 @@ struct SceneSurface {
     std::optional<SceneColorMap> color_map{};
     std::optional<SceneContours> contours{};
     std::optional<SceneLineStyle> mesh_lines{};
+    std::optional<SceneLic> lic{};
     std::vector<std::array<double, 4>> clip{};
     double opacity = 1;
     std::optional<Rgb> outside{};
@@ -229,6 +239,7 @@ struct Scene {
     SceneColorMap color_map;
     std::optional<SceneContours> contours;
     std::optional<SceneLineStyle> mesh_lines;
+    std::optional<SceneLic> lic;
     /** How often a pixel is halved at most to decide whether it meets a line. */
     std::uint32_t subdivisions = Surface{}.subdivisions;
     std::vector<SceneSurface> surfaces;

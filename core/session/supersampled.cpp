@@ -24,6 +24,10 @@ FrameRequest finer(const FrameRequest& request, std::uint32_t n) {
         if (surface.mesh_lines) {
             surface.mesh_lines->style.width *= n;
         }
+        if (surface.lic) {
+            surface.lic->length *= n;
+            surface.lic->grain *= n;
+        }
         if (auto* const wires = std::get_if<WireFrame>(&surface.geometry)) {
             wires->width *= n;
         }

@@ -7,6 +7,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "picture/view.glsl"
 #include "arithmetic/finite.glsl"
 #include "picture/samples.glsl"
+#include "picture/seen_point.glsl"
 // A kernel without light costs nothing for it; nor does one without lines, or planes that clip.
 #if CORE_IS_CLIPPED
 #include "picture/place_error.glsl"
@@ -15,6 +16,10 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #define CORE_LIGHTS_BINDING 6
 #include "picture/lighting.glsl"
 layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+#endif
+#if CORE_IS_SHADED
+// Factors of colours, by line integral convolution (picture/lic.comp).
+layout(set = 0, binding = 6 + 2 * CORE_IS_LIT, std430) readonly buffer core_shades_block { elvis_real core_shades[]; };
 #endif
 
 layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
@@ -55,10 +60,8 @@ elvis_vec4 core_special(uint which) { return core_rows[core_n_points + which]; }
 
 // The point that the pixel sees, relative to the reference point, and the direction of its ray, of any length.
 elvis_vec3 core_position(uint pixel, elvis_real depth, out elvis_vec3 direction) {
-    const core_cut_column column = core_cut_begin(elvis_real(pixel % core_width));
-    const elvis_real down = elvis_real(pixel / core_width) - column.row0;
-    direction = (column.direction + down * column.direction_row).xyz;
-    return (column.base + down * column.base_row).xyz + (depth / length(direction) - column.reference_distance) * direction;
+    elvis_real t;
+    return core_seen_point(elvis_vec2(pixel % core_width, pixel / core_width), depth, direction, t);
 }
 
 #if CORE_IS_CLIPPED
@@ -267,6 +270,9 @@ void main() {
 #if CORE_IS_LIT
         // A colour that says "no element here" stays as it is.
         color.xyz = shown.is_outside ? color.xyz : core_lit_at(pixel, color.xyz);
+#endif
+#if CORE_IS_SHADED
+        color.xyz *= shown.is_outside || shown.has_no_place ? elvis_real(1) : core_shades[pixel];
 #endif
         core_note_special(shown, limits);
 #if CORE_HAS_LINES

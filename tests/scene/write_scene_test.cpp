@@ -52,6 +52,7 @@ const std::vector<std::string>& documents() {
             "contours": {"count": 7, "range": [0.0, 1.0], "width": 2.0, "color": [0.0, 0.0, 0.0],
                          "undecided_color": [1.0, 0.0, 1.0]},
             "mesh_lines": {"width": 1.5, "color": [0.5, 0.5, 0.5], "undecided_color": [1.0, 1.0, 0.0]},
+            "lic": {"field": "u", "contrast": 0.5},
             "subdivisions": 8,
             "lighting": {"ambient": [0.2, 0.2, 0.2], "headlight": [0.5, 0.5, 1.5],
                          "lights": [{"type": "point", "position": [1.0, 2.0, 3.0], "color": [1.0, 1.0, 1.0]},
@@ -61,7 +62,7 @@ const std::vector<std::string>& documents() {
             "surfaces": [
               {"type": "plane", "plane": [1.0, 0.0, 0.0, -0.3], "name": "cut", "field": "p",
                "color_map": {"name": "coolwarm"}, "contours": {"values": [-1.0, 0.1], "width": 1.0},
-               "mesh_lines": {"width": 1.0}, "clip": [[0.0, 1.0, 0.0, 0.5]], "opacity": 0.5, "outside": [0.9, 0.9, 0.9],
+               "mesh_lines": {"width": 1.0}, "lic": {"field": "grad(p)", "length": 30.0, "contrast": 0.25}, "clip": [[0.0, 1.0, 0.0, 0.5]], "opacity": 0.5, "outside": [0.9, 0.9, 0.9],
                "lighting": false, "visible": false},
               {"type": "boundary", "groups": ["wall", "inlet"]},
               {"type": "elements", "ids": [3, [5, 9]], "shapes": ["prism", "tetrahedron"], "orders": [2, 4],

@@ -83,6 +83,8 @@ void add_lines_and_colors(CLI::App& command, RenderArguments& a) {
     command.add_option("--contours", a.contours, "V,V,..: values of contour lines; round ones if none are given")
         ->expected(0, 1);
     command.add_flag("--mesh-lines", a.mesh_lines, "Draw where boundaries of elements meet the surfaces");
+    command.add_option("--lic", a.lic, "Line integral convolution: streaks on the surfaces along this vector field")
+        ->option_text("VECTOR");
     std::string maps;
     for (const std::string& name : words_of("/$defs/color_map/properties/name")) {
         maps += (maps.empty() ? "" : ", ") + name;

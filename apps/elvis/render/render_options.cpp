@@ -120,6 +120,9 @@ void apply_lines(const RenderArguments& arguments, Document& scene) {
     if (arguments.mesh_lines) {
         scene.set("/mesh_lines", json::object());
     }
+    if (!arguments.lic.empty()) {
+        scene.set("/lic", {{"field", arguments.lic}});
+    }
 }
 
 /** A volume rendering of the command line stands instead of that of the file; how it is integrated, beside. */

@@ -52,6 +52,7 @@ struct RenderArguments {
     std::string contours;
     bool has_contours = false;
     bool mesh_lines = false;
+    std::string lic;
     std::string color_map;
     std::string range;
     bool log_scale = false;

@@ -25,6 +25,8 @@ std::string unknown_part(const FrameRequest& request) {
         // Of lines it knows where their surface is, and what is seen there without them.
         if (surface.has_lines() && (request.surfaces.size() > 1 || request.volume || surface.opacity < 1))
             return "lines in a picture of several layers";
+        if (surface.lic)
+            return "line integral convolution";
         if (const auto* iso = std::get_if<Isosurfaces>(&surface.geometry); iso != nullptr && iso->field.expression)
             return "an isosurface of an expression";
         if (const auto* shape = std::get_if<CutShape>(&surface.geometry); shape != nullptr && !is_known(*shape))

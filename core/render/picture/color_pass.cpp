@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace elvis {
 
@@ -57,14 +58,16 @@ std::array<double, 3> special_limits(const ColorTable& table, Precision precisio
     return {least, lower - beyond * (upper - lower), upper + beyond * (upper - lower)};
 }
 
-KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines, bool is_clipped) {
-    const std::string name =
-        std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : "") + (is_clipped ? "_clipped" : "");
-    KernelRequest request = pixel_kernel(name, precision, {.uniform = 1, .storage = is_lit ? 7u : 5u}, sizeof(ColorParameters));
+KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines, bool is_clipped, bool is_shaded) {
+    const std::string name = std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : "") +
+                             (is_clipped ? "_clipped" : "") + (is_shaded ? "_shaded" : "");
+    const BufferCounts buffers{.uniform = 1, .storage = (is_lit ? 7u : 5u) + (is_shaded ? 1u : 0u)};
+    KernelRequest request = pixel_kernel(name, precision, buffers, sizeof(ColorParameters));
     request.kernel = "picture/color.comp";
     request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
     request.defines.emplace_back("CORE_HAS_LINES", has_lines ? "1" : "0");
     request.defines.emplace_back("CORE_IS_CLIPPED", is_clipped ? "1" : "0");
+    request.defines.emplace_back("CORE_IS_SHADED", is_shaded ? "1" : "0");
     return request;
 }
 
@@ -74,10 +77,12 @@ ColorPass::ColorPass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision), m_frame(view_buffer(device, precision)) {}
 
 const ComposedKernel& ColorPass::provide(const Surface& surface, bool is_lit) {
-    const bool has_lines = surface.has_lines(), is_clipped = !surface.clip.empty();
-    std::unique_ptr<ComposedKernel>& kernel = m_kernels[(is_clipped ? 4u : 0u) + (is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
+    const bool has_lines = surface.has_lines(), is_clipped = !surface.clip.empty(), is_shaded = surface.lic.has_value();
+    std::unique_ptr<ComposedKernel>& kernel =
+        m_kernels[(is_shaded ? 8u : 0u) + (is_clipped ? 4u : 0u) + (is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
     if (!kernel) {
-        kernel = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, is_lit, has_lines, is_clipped));
+        kernel =
+            std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, is_lit, has_lines, is_clipped, is_shaded));
     }
     return *kernel;
 }
@@ -99,7 +104,8 @@ std::vector<SpecialValues> ColorPass::special_values(std::span<const std::uint32
 }
 
 void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
-                     const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting) {
+                     const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting,
+                     const Buffer* shades) {
     std::vector<double> numbers;
     const ColorTable& table = surface.colors;
     for (const ColorTable::Point& point : table.points) {
@@ -148,17 +154,17 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      traits_of(surface.geometry).plane != nullptr ? 1u : 0u};
     const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
     std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
-    const ComposedKernel& kernel = provide(surface, lighting != nullptr);
-    if (!lighting) {
-        dispatch_rows(kernel, bindings, push_constants, layer);
-        return;
+    std::optional<Buffer> lights;
+    if (lighting) {
+        const std::array<double, 4>& reference = view.rows[6];
+        const std::vector<double> light_numbers = lighting_rows(*lighting, {reference[0], reference[1], reference[2]});
+        write_reals(lights.emplace(m_device, light_numbers.size() * real_bytes(m_precision)), m_precision, light_numbers);
+        bindings.insert(bindings.end(), {&*lights, &layer.normals});
     }
-    const std::array<double, 4>& reference = view.rows[6];
-    const std::vector<double> light_numbers = lighting_rows(*lighting, {reference[0], reference[1], reference[2]});
-    const Buffer lights(m_device, light_numbers.size() * real_bytes(m_precision));
-    write_reals(lights, m_precision, light_numbers);
-    bindings.insert(bindings.end(), {&lights, &layer.normals});
-    dispatch_rows(kernel, bindings, push_constants, layer);
+    if (shades) {
+        bindings.push_back(shades);
+    }
+    dispatch_rows(provide(surface, lighting != nullptr), bindings, push_constants, layer);
 }
 
 } // namespace elvis

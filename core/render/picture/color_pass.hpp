@@ -26,10 +26,11 @@ public:
      * Colours the layer of the surface with this index in the picture. Its field lacks `offset` on the device. `background`:
      * colour where the surface is not seen; its opacity must be 0 for a layer that is to be merged. `common_flags` are set on
      * every pixel that is hit. `view`: the geometry of any plane: only its rays matter, and its normal if the surface is a
-     * plane. `lighting`: of this surface; null for none.
+     * plane. `lighting`: of this surface; null for none. `shades`: of a surface with line integral convolution.
      */
     void draw(const Layer& layer, const Surface& surface, std::size_t index, const CutPlaneGeometry& view,
-              const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting);
+              const Color& background, double offset, std::uint32_t common_flags, const Lighting* lighting,
+              const Buffer* shades = nullptr);
 
     /** The kernel for surfaces like this one; compiled when it is first asked for. */
     const ComposedKernel& provide(const Surface& surface, bool is_lit);
@@ -41,8 +42,8 @@ public:
 private:
     const Device& m_device;
     Precision m_precision;
-    /** With and without lines, light, and planes that clip: what a picture does not need costs it nothing. */
-    std::array<std::unique_ptr<ComposedKernel>, 8> m_kernels;
+    /** With and without lines, light, planes that clip, and shades: what a picture does not need costs it nothing. */
+    std::array<std::unique_ptr<ComposedKernel>, 16> m_kernels;
     Buffer m_frame;
     std::unique_ptr<Buffer> m_special;
     std::size_t m_n_surfaces = 0;

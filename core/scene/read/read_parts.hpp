@@ -32,6 +32,7 @@ SceneColorMap read_color_map(const JsonObject& object, const std::string& scene)
 std::optional<Lighting> read_lighting(const JsonObject& root, std::vector<Light>& hidden);
 SceneLineStyle read_line_style(const JsonObject& object);
 SceneContours read_contours(const JsonObject& object);
+SceneLic read_lic(const JsonObject& object);
 /** A surface given by a formula or a file. */
 CutShape read_shape(const JsonObject& object, const std::string& type, const std::string& scene);
 /** Of a surface of type "streamlines". */

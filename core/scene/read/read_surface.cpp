@@ -72,6 +72,21 @@ SceneLineStyle read_line_style(const JsonObject& object) {
     return style;
 }
 
+SceneLic read_lic(const JsonObject& object) {
+    SceneLic lic;
+    if (!object.has("field")) {
+        object.fail("field", "is missing, which line integral convolution needs: a vector field");
+    }
+    lic.field = object.text("field");
+    if (object.has("length")) {
+        lic.length = object.number("length");
+    }
+    if (object.has("contrast")) {
+        lic.contrast = object.number("contrast");
+    }
+    return lic;
+}
+
 SceneContours read_contours(const JsonObject& object) {
     SceneContours contours;
     contours.is_round = !object.has("values") && !object.has("count");
@@ -150,6 +165,9 @@ SceneSurface read_surface(const JsonObject& object, const std::string& type, con
     }
     if (object.has("mesh_lines")) {
         surface.mesh_lines = read_line_style(object.object("mesh_lines"));
+    }
+    if (object.has("lic")) {
+        surface.lic = read_lic(object.object("lic"));
     }
     if (object.has("clip")) {
         for (const std::vector<double>& plane : object.rows("clip")) {

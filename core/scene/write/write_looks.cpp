@@ -79,6 +79,14 @@ SceneJson color_map_json(const SceneColorMap& map, const std::string& scene) {
     return json;
 }
 
+SceneJson lic_json(const SceneLic& lic) {
+    SceneJson json;
+    json["field"] = lic.field;
+    set(json, "length", lic.length);
+    json["contrast"] = lic.contrast;
+    return json;
+}
+
 SceneJson line_style_json(const SceneLineStyle& style) {
     SceneJson json = SceneJson::object(); // That nothing is said is an object, too.
     if (style.width != width_by_size) {

@@ -29,6 +29,7 @@ std::string seen_from(const std::string& scene, const std::string& path);
 SceneJson color_map_json(const SceneColorMap& map, const std::string& scene);
 SceneJson contours_json(const SceneContours& contours);
 SceneJson line_style_json(const SceneLineStyle& style);
+SceneJson lic_json(const SceneLic& lic);
 SceneJson lighting_json(const Lighting& lighting, const std::vector<Light>& hidden);
 SceneJson annotation_json(const SceneAnnotation& annotation, const std::string& scene);
 SceneJson surface_json(const SceneSurface& surface, const std::string& scene);

@@ -131,6 +131,9 @@ SceneJson scene_json(const Scene& scene, const std::string& path) {
     if (scene.mesh_lines) {
         json["mesh_lines"] = line_style_json(*scene.mesh_lines);
     }
+    if (scene.lic) {
+        json["lic"] = lic_json(*scene.lic);
+    }
     if (scene.subdivisions != Scene{}.subdivisions) {
         json["subdivisions"] = scene.subdivisions;
     }

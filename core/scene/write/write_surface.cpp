@@ -200,6 +200,9 @@ SceneJson surface_json(const SceneSurface& surface, const std::string& scene) {
     if (surface.mesh_lines) {
         json["mesh_lines"] = line_style_json(*surface.mesh_lines);
     }
+    if (surface.lic) {
+        json["lic"] = lic_json(*surface.lic);
+    }
     if (!surface.clip.empty()) {
         json["clip"] = surface.clip;
     }

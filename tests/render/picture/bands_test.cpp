@@ -1,6 +1,7 @@
 // One picture by several devices: lavapipe, opened several times.
 #include <core/base/error.hpp>
 #include <core/bench/waves.hpp>
+#include <core/expression/expression.hpp>
 #include <core/render/bands.hpp>
 
 #include <catch2/catch.hpp>
@@ -61,6 +62,17 @@ std::map<std::string, FrameRequest> requests() {
     layers.surfaces.push_back(lines.surfaces[0]);
     layers.surfaces.back().geometry = CutShape(Torus{{0, 0, 0}, {0, 0, 1}, 0.6, 0.3});
     all["layers"] = layers;
+    for (const char* const kind : {"boundary", "shifted, orthographic"}) {
+        FrameRequest lic = all[kind];
+        Lic& along = lic.surfaces[0].lic.emplace();
+        const char* const components[] = {"0.3 - y", "x + 0.2 * z", "sin(x)"};
+        for (std::size_t i = 0; i < 3; ++i) {
+            along.vectors[i].expression = std::make_shared<const Expression>(components[i], std::span<const FieldInfo>());
+        }
+        along.length = 14;
+        along.grain = 2;
+        all[std::string("line integral convolution, ") + kind] = lic;
+    }
     FrameRequest volume = sized(waves_cut_plane(1));
     volume.volume.emplace();
     volume.volume->transfer.color = {{-1, {0, 0, 1}}, {1, {1, 0, 0}}};
