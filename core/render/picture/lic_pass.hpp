@@ -6,9 +6,8 @@
  * true surface is projected into the picture by the exact derivative of the camera's projection
  * (shaders/picture/lic_directions.comp). Noise, a hash of the pixel's place in the whole picture, is then averaged along the
  * curve through each pixel that follows these directions (shaders/picture/lic.comp, with the sources). Nothing is sampled on a
- * mesh: what is approximate is the curve between pixels, along which directions are bilinear and which the midpoint rule
- * follows in steps of half a pixel. On a circle of radius R pixels it is off by less than 1 / (8 R) of a pixel for each pixel
- * of its length.
+ * mesh: what is approximate is the curve between pixels: directions are bilinear there, and the midpoint rule follows them in
+ * steps of half a pixel.
  *
  * Curves end where the surface does, where it is folded in front of itself or turns by more than some 60 degrees from one pixel
  * to the next, where there is no vector, and where the vector is zero within its rounding: there noise stays as it is.

@@ -16,6 +16,7 @@ convert fichera "$data"/mfem/poisson-fichera-q3-p5/{mesh.mesh,sol.gf}
 convert mixed "$data"/nektarpp/cA.{xml,fld}
 convert jumps "$data"/mfem/dg-fichera-q3-p4/{mesh.mesh,sol.gf}
 convert beam "$data"/mfem/elast-beam-hex-p4/{mesh.mesh,sol.gf}
+convert streaks "$data"/mfem/maxwell-fichera-q3-nd3/{mesh.mesh,sol.gf}
 convert sinc "$data/elvis/raySincBox_F4_P4.dat"
 
 for scene in "$here"/*.json; do

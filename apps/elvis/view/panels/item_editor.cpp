@@ -102,6 +102,9 @@ bool edit_surface(Ui& ui, Json& surface) {
         is_changed = edit_contours(ui, "surface/contours", surface) || is_changed;
         is_changed = edit_mesh_lines(ui, "surface/mesh lines", surface) || is_changed;
     }
+    if (type != "wireframe" && type != "streamlines" && type != "pathlines" && type != "arrows") {
+        is_changed = edit_lic(ui, "surface/streaks", surface) || is_changed;
+    }
     if (may_lie_outside(type)) {
         is_changed = optional_color(ui, "surface/outside", "Outside", surface, "outside", {0.8, 0.8, 0.8},
                                     "Colour where it lies in no element; else one sees through it there") ||

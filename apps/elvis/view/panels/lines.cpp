@@ -1,4 +1,4 @@
-// Contours and mesh lines.
+// Contours, mesh lines and streaks.
 
 #include "panels.hpp"
 
@@ -73,6 +73,28 @@ bool edit_mesh_lines(Ui& ui, const std::string& name, Json& owner) {
     if (owner.contains("mesh_lines")) {
         ImGui::Indent();
         is_changed = edit_line_style(ui, name, owner["mesh_lines"]) || is_changed;
+        ImGui::Unindent();
+    }
+    ImGui::PopID();
+    return is_changed;
+}
+
+bool edit_lic(Ui& ui, const std::string& name, Json& owner) {
+    const std::vector<std::string> flows = flows_of(*ui.model().volume());
+    if (flows.empty() && !owner.contains("lic")) {
+        return false;
+    }
+    ImGui::PushID(name.c_str());
+    bool is_changed = optional_part(ui, name, "Streaks", owner, "lic", Json{{"field", flows.empty() ? "" : flows.front()}},
+                                    "Line integral convolution: noise that is averaged along a vector field");
+    if (owner.contains("lic")) {
+        Json& lic = owner["lic"];
+        ImGui::Indent();
+        is_changed = offered_text(ui, name + "/field", "Along", lic, "field", flows,
+                                  "The vector field or expression whose part in the surface they follow") ||
+                     is_changed;
+        is_changed = slider(ui, name + "/contrast", "Contrast", lic, "contrast", 0.6, 0, 1, "How dark streaks make colours") ||
+                     is_changed;
         ImGui::Unindent();
     }
     ImGui::PopID();

@@ -38,6 +38,8 @@ std::array<double, 2> range_of(const Json& map, const std::optional<FieldRange>&
 bool edit_color_map(Ui& ui, const std::string& name, Json& owner, const std::optional<std::string>& field);
 bool edit_contours(Ui& ui, const std::string& name, Json& owner);
 bool edit_mesh_lines(Ui& ui, const std::string& name, Json& owner);
+/** Nothing where the volume has nothing to follow. */
+bool edit_lic(Ui& ui, const std::string& name, Json& owner);
 bool edit_volume_rendering(Ui& ui, Json& rendering);
 /** Density and peaks over the histogram, which may be null. `base`: the density without peaks; `range`: of the colours;
  * `usual`: a density that shows something. */

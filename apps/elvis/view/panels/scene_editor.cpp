@@ -100,6 +100,7 @@ void draw_scene_editor(Ui& ui) {
         ImGui::Separator();
         did("contours", edit_contours(ui, "scene/contours", scene));
         did("mesh lines", edit_mesh_lines(ui, "scene/mesh lines", scene));
+        did("streaks", edit_lic(ui, "scene/streaks", scene));
         ImGui::Separator();
         did("light", edit_lighting(ui, scene));
         ImGui::Separator();
