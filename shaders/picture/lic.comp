@@ -29,51 +29,37 @@ layout(push_constant) uniform core_parameters {
     float core_contrast;
 };
 
-// Directions that cancel each other by more lead nowhere.
-#define CORE_LIC_LEAST_SQUARE elvis_real(1.0e-4LF)
+// Length of the mean of directions around a place. Where it is less they turn by more than 120 degrees from pixel to pixel: there is a
+// point without direction between them, beyond which rounding would decide where the curve goes on. Before that, the curve fades out.
+#define CORE_LIC_LEAST_LENGTH elvis_real(0.5)
+#define CORE_LIC_SURE_LENGTH elvis_real(0.6LF)
 // Standard deviations of the mean within which shades differ.
 #define CORE_LIC_MOST_DEVIATION elvis_real(2)
 
-// Bits of a pixel; none out of the picture.
-uint core_lic_bits(ivec2 place) {
-    const ivec2 size = ivec2(core_width, core_n_pixels / core_width);
-    const bool is_inside = place.x >= 0 && place.y >= 0 && place.x < size.x && place.y < size.y;
-    const uint pixel = is_inside ? uint(place.y) * core_width + uint(place.x) : 0u;
-    return is_inside && core_marks[pixel].owner != 0u ? core_pixels[pixel].bits : 0u;
+core_lic_pixel core_lic_at(ivec2 place) { return core_pixels[uint(place.y) * core_width + uint(place.x)]; }
+
+bool core_goes_to(core_lic_pixel from, ivec2 way) { return (from.bits & core_lic_bit(way)) != 0u; }
+
+// The direction of a pixel beside another one; zero where the surface does not go on to it.
+elvis_vec2 core_direction_beside(core_lic_pixel from, ivec2 place, ivec2 way) {
+    const bool goes_on = core_goes_to(from, way);
+    const core_lic_pixel to = core_lic_at(goes_on ? place + way : place);
+    return goes_on ? elvis_vec2(to.across, to.down) : elvis_vec2(0);
 }
 
-// Whether the surface goes on from one pixel to the next in its row, or in its column. `way`: -1, 0 or 1.
-bool core_goes_across(ivec2 from, int way) {
-    return way == 0 || (core_lic_bits(ivec2(from.x + min(way, 0), from.y)) & CORE_LIC_GOES_ACROSS) != 0u;
-}
-bool core_goes_down(ivec2 from, int way) {
-    return way == 0 || (core_lic_bits(ivec2(from.x, from.y + min(way, 0))) & CORE_LIC_GOES_DOWN) != 0u;
-}
-
-// Whether it goes on from a pixel to one beside it, over edges of pixels.
-bool core_goes_to(ivec2 from, ivec2 way) {
-    return (core_goes_across(from, way.x) && core_goes_down(from + ivec2(way.x, 0), way.y)) ||
-           (core_goes_down(from, way.y) && core_goes_across(from + ivec2(0, way.y), way.x));
+// The mean of directions `off` away from the pixel at `place`, which is the nearest: that pixel's and those of the three around the point
+// to which the surface goes on.
+elvis_vec2 core_mean_direction(core_lic_pixel nearest, ivec2 place, elvis_vec2 off) {
+    const ivec2 way = ivec2(off.x < elvis_real(0) ? -1 : 1, off.y < elvis_real(0) ? -1 : 1);
+    const elvis_real x = abs(off.x), y = abs(off.y), rest_x = elvis_real(1) - x, rest_y = elvis_real(1) - y;
+    return rest_x * rest_y * elvis_vec2(nearest.across, nearest.down) +
+           x * rest_y * core_direction_beside(nearest, place, ivec2(way.x, 0)) +
+           rest_x * y * core_direction_beside(nearest, place, ivec2(0, way.y)) + x * y * core_direction_beside(nearest, place, way);
 }
 
-elvis_vec2 core_lic_direction(ivec2 place, bool is_there) {
-    const core_lic_pixel found = core_pixels[is_there ? uint(place.y) * core_width + uint(place.x) : 0u];
-    return is_there ? elvis_vec2(found.across, found.down) : elvis_vec2(0);
-}
-
-// The direction `offset` away from pixel `start`, nearest to pixel `nearest`: from that pixel and those three around the place to which
-// the surface goes on. Zero where there is none.
-elvis_vec2 core_direction_at(ivec2 start, ivec2 nearest, elvis_vec2 offset) {
-    const elvis_vec2 off = offset - elvis_vec2(nearest - start), weight = abs(off);
-    const ivec2 way = ivec2(off.x < elvis_real(0) ? -1 : 1, off.y < elvis_real(0) ? -1 : 1), across = ivec2(way.x, 0), down = ivec2(0, way.y);
-    const elvis_vec2 here = core_lic_direction(nearest, true);
-    const elvis_vec2 beside = core_lic_direction(nearest + across, core_goes_to(nearest, across));
-    const elvis_vec2 under = core_lic_direction(nearest + down, core_goes_to(nearest, down));
-    const elvis_vec2 opposite = core_lic_direction(nearest + way, core_goes_to(nearest, way));
-    const elvis_real x = weight.x, y = weight.y, rest_x = elvis_real(1) - x, rest_y = elvis_real(1) - y;
-    const elvis_vec2 sum = rest_x * rest_y * here + x * rest_y * beside + rest_x * y * under + x * y * opposite;
-    const elvis_real square = dot(sum, sum);
-    return square > CORE_LIC_LEAST_SQUARE ? sum / sqrt(square) : elvis_vec2(0);
+// How much a mean of this length counts.
+elvis_real core_lic_share(elvis_real length_) {
+    return clamp((length_ - CORE_LIC_LEAST_LENGTH) / (CORE_LIC_SURE_LENGTH - CORE_LIC_LEAST_LENGTH), elvis_real(0), elvis_real(1));
 }
 
 // The finalizer of MurmurHash3 (Austin Appleby): every bit of the input changes half of the output's.
@@ -89,51 +75,60 @@ elvis_real core_noise_of(ivec2 grain) {
     return elvis_real(float(h >> 8) * 5.9604644775390625e-8);
 }
 
-// Into the grain, and the place in it, of what is `offset` pixels away from the middle of pixel `pixel`.
-int core_grain_at(int pixel, elvis_real offset, out elvis_real inside) {
-    const int n = int(core_grain);
-    // Middles of grains have whole numbers: those of pixels are (2 pixel + 1 - n) / 2n. Moved by a grain, so that nothing is negative.
-    const int halves = 2 * pixel + 1 + n;
-    const int whole = halves / (2 * n);
-    const elvis_real at = (elvis_real(halves - 2 * n * whole) * elvis_real(0.5) + offset) / elvis_real(n), low = floor(at);
-    inside = at - low;
-    return whole + int(low);
+// A place among grains, whose middles have whole numbers.
+struct core_grain_place {
+    ivec2 whole;
+    elvis_vec2 rest;
+};
+
+// Of the middle of a pixel, which has (2 pixel + 1 - n) / 2n where grains are n pixels wide. Moved by a grain, so that nothing is negative.
+core_grain_place core_grain_place_of(ivec2 pixel) {
+    const ivec2 halves = 2 * (pixel + ivec2(0, int(core_first_row))) + 1 + int(core_grain);
+    const ivec2 whole = halves / (2 * int(core_grain));
+    return core_grain_place(whole, elvis_vec2(halves - 2 * int(core_grain) * whole) * elvis_real(0.5));
 }
 
-elvis_real core_noise(ivec2 start, elvis_vec2 offset) {
-    elvis_real x, y;
-    const int column = core_grain_at(start.x, offset.x, x), row = core_grain_at(start.y + int(core_first_row), offset.y, y);
-    const elvis_real above = mix(core_noise_of(ivec2(column, row)), core_noise_of(ivec2(column + 1, row)), x);
-    const elvis_real below = mix(core_noise_of(ivec2(column, row + 1)), core_noise_of(ivec2(column + 1, row + 1)), x);
-    return mix(above, below, y);
+// `offset`: from there, in pixels.
+elvis_real core_noise(core_grain_place from, elvis_vec2 offset) {
+    const elvis_vec2 at = (from.rest + offset) / elvis_real(core_grain), low = floor(at), inside = at - low;
+    const ivec2 grain = from.whole + ivec2(low);
+    const elvis_real above = mix(core_noise_of(grain), core_noise_of(grain + ivec2(1, 0)), inside.x);
+    const elvis_real below = mix(core_noise_of(grain + ivec2(0, 1)), core_noise_of(grain + 1), inside.x);
+    return mix(above, below, inside.y);
 }
 
 ivec2 core_nearest(elvis_vec2 offset) { return ivec2(floor(offset + elvis_real(0.5))); }
 
-// One side of the curve, by the midpoint rule: the sum of the noise along it, and at how many places.
-void core_follow(ivec2 start, elvis_real sense, inout elvis_real sum, inout elvis_real n_places) {
+// One side of the curve, by the midpoint rule: the sum of the noise along it, and at how many places, each as much as it counts.
+void core_follow(ivec2 start, core_grain_place grains, elvis_real sense, inout elvis_real sum, inout elvis_real n_places) {
     elvis_real x = elvis_real(0), y = elvis_real(0);
     int column = start.x, row = start.y;
-    bool goes_on = true;
     const elvis_real step_ = elvis_real(core_step) * sense;
+    elvis_real share = elvis_real(1);
+    bool goes_on = true;
     for (uint i = 0u; i < core_n_steps; ++i) {
         const elvis_vec2 from = elvis_vec2(x, y);
-        ivec2 nearest = ivec2(column, row);
-        const elvis_vec2 first = core_direction_at(start, nearest, from);
-        const elvis_vec2 middle = from + elvis_real(0.5) * step_ * first;
-        const ivec2 to_middle = start + core_nearest(middle) - nearest;
-        goes_on = goes_on && first != elvis_vec2(0) && core_goes_to(nearest, to_middle);
-        nearest = goes_on ? nearest + to_middle : nearest;
-        const elvis_vec2 second = core_direction_at(start, nearest, goes_on ? middle : from);
-        const elvis_vec2 to = from + step_ * second;
-        const ivec2 to_end = start + core_nearest(to) - nearest;
-        goes_on = goes_on && second != elvis_vec2(0) && core_goes_to(nearest, clamp(to_end, ivec2(-1), ivec2(1)));
-        column = goes_on ? nearest.x + to_end.x : column;
-        row = goes_on ? nearest.y + to_end.y : row;
+        ivec2 place = ivec2(column, row);
+        core_lic_pixel nearest = core_lic_at(place);
+        const elvis_vec2 first = core_mean_direction(nearest, place, from - elvis_vec2(place - start));
+        const elvis_real first_length = max(length(first), CORE_LIC_LEAST_LENGTH);
+        const elvis_vec2 middle = from + elvis_real(0.5) * step_ / first_length * first;
+        const ivec2 to_middle = start + core_nearest(middle) - place;
+        goes_on = goes_on && core_goes_to(nearest, to_middle);
+        place = goes_on ? place + to_middle : place;
+        nearest = core_lic_at(place);
+        const elvis_vec2 second = core_mean_direction(nearest, place, goes_on ? middle - elvis_vec2(place - start) : elvis_vec2(0));
+        const elvis_real second_length = max(length(second), CORE_LIC_LEAST_LENGTH);
+        const elvis_vec2 to = from + step_ / second_length * second;
+        share *= core_lic_share(first_length) * core_lic_share(second_length);
+        const ivec2 to_end = clamp(start + core_nearest(to) - place, ivec2(-1), ivec2(1));
+        goes_on = goes_on && share > elvis_real(0) && core_goes_to(nearest, to_end);
+        column = goes_on ? place.x + to_end.x : column;
+        row = goes_on ? place.y + to_end.y : row;
         x = goes_on ? to.x : x;
         y = goes_on ? to.y : y;
-        sum += goes_on ? core_noise(start, elvis_vec2(x, y)) : elvis_real(0);
-        n_places += goes_on ? elvis_real(1) : elvis_real(0);
+        sum += goes_on ? share * core_noise(grains, elvis_vec2(x, y)) : elvis_real(0);
+        n_places += goes_on ? share : elvis_real(0);
         if (!goes_on) {
             break;
         }
@@ -146,13 +141,14 @@ void main() {
         return;
     }
     const ivec2 start = ivec2(pixel % core_width, pixel / core_width);
-    if ((core_pixels[pixel].bits & CORE_LIC_HAS_VECTOR) == 0u) {
+    if (!core_goes_to(core_lic_at(start), ivec2(0))) {
         core_shades[pixel] = elvis_real(1);
         return;
     }
-    elvis_real sum = core_noise(start, elvis_vec2(0)), n_places = elvis_real(1);
-    core_follow(start, elvis_real(1), sum, n_places);
-    core_follow(start, elvis_real(-1), sum, n_places);
+    const core_grain_place place = core_grain_place_of(start);
+    elvis_real sum = core_noise(place, elvis_vec2(0)), n_places = elvis_real(1);
+    core_follow(start, place, elvis_real(1), sum, n_places);
+    core_follow(start, place, elvis_real(-1), sum, n_places);
     // Of bilinear noise along a length of l grains: of evenly distributed numbers (1/12), 2/3 across the curve, and along it 1/l for long
     // curves, 2/3 for none.
     const elvis_real grains = (n_places - elvis_real(1)) * elvis_real(core_step) / elvis_real(core_grain);

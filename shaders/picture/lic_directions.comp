@@ -59,12 +59,14 @@ core_surface_point core_surface_point_of(ivec2 place) {
     return point;
 }
 
-bool core_goes_on(core_surface_point from, ivec2 to, ivec2 size) {
-    const core_surface_point other = core_surface_point_of(min(to, size - 1));
-    const elvis_vec3 way = other.position - from.position;
+// `place`: of a pixel in the picture or out of it.
+bool core_goes_on(core_surface_point from, ivec2 place, ivec2 size) {
+    const bool is_inside = place.x >= 0 && place.y >= 0 && place.x < size.x && place.y < size.y;
+    const core_surface_point to = core_surface_point_of(clamp(place, ivec2(0), size - 1));
+    const elvis_vec3 way = to.position - from.position;
     const elvis_real most = CORE_MOST_RISE * length(way);
-    const bool is_smooth = core_is_plane != 0u || (abs(dot(way, from.normal)) <= most && abs(dot(way, other.normal)) <= most);
-    return from.has_vector && other.has_vector && is_smooth && to.x < size.x && to.y < size.y;
+    const bool is_smooth = core_is_plane != 0u || (abs(dot(way, from.normal)) <= most && abs(dot(way, to.normal)) <= most);
+    return is_inside && from.has_vector && to.has_vector && is_smooth;
 }
 
 // Zero where the vector's part in the tangent plane, or what is seen of that part, is nothing but rounding.
@@ -91,8 +93,10 @@ void main() {
     const ivec2 place = ivec2(pixel % core_width, pixel / core_width), size = ivec2(core_width, core_n_pixels / core_width);
     const core_surface_point point = core_surface_point_of(place);
     const elvis_vec2 way = point.has_vector ? core_direction_in_picture(point) : elvis_vec2(0);
-    const uint bits = (point.has_vector ? CORE_LIC_HAS_VECTOR : 0u) |
-                      (core_goes_on(point, place + ivec2(1, 0), size) ? CORE_LIC_GOES_ACROSS : 0u) |
-                      (core_goes_on(point, place + ivec2(0, 1), size) ? CORE_LIC_GOES_DOWN : 0u);
+    uint bits = point.has_vector ? core_lic_bit(ivec2(0)) : 0u;
+    for (int i = 0; i < 9; ++i) {
+        const ivec2 to = ivec2(i % 3 - 1, i / 3 - 1);
+        bits |= to != ivec2(0) && core_goes_on(point, place + to, size) ? core_lic_bit(to) : 0u;
+    }
     core_pixels[pixel] = core_lic_pixel(way.x, way.y, bits);
 }

@@ -3,12 +3,10 @@
 struct core_lic_pixel {
     // Where the vector at the pixel's point leads in the picture, in columns and rows, of length 1; zero where it leads nowhere.
     elvis_real across, down;
-    // CORE_LIC_...
+    // Bits of core_lic_bit.
     uint bits;
 };
 
-// The pixel shows a point at which there is a vector.
-#define CORE_LIC_HAS_VECTOR 1u
-// The surface goes on from here to the pixel on the right, and to the one below, and there are vectors on both sides.
-#define CORE_LIC_GOES_ACROSS 2u
-#define CORE_LIC_GOES_DOWN 4u
+// Of the pixel that is so many columns and rows away, -1 to 1: the surface goes on to it, and there are vectors here and there.
+// With (0, 0): there is a vector here.
+uint core_lic_bit(ivec2 way) { return 1u << uint(3 * way.y + way.x + 4); }

@@ -10,7 +10,8 @@
  * steps of half a pixel.
  *
  * Curves end where the surface does, where it is folded in front of itself or turns by more than some 60 degrees from one pixel
- * to the next, where there is no vector, and where the vector is zero within its rounding: there noise stays as it is.
+ * to the next, where directions turn by more than 120 degrees between pixels (as at stagnation points), where there is no
+ * vector, and where the vector is zero within its rounding: there noise stays as it is.
  */
 #pragma once
 

@@ -1,6 +1,8 @@
 // Line integral convolution beside closed forms: noise along exact curves, directions in the picture, and nothing but colours.
 
 #include <core/camera/camera_ray.hpp>
+#include <core/oracle/samples/exact_volumes.hpp>
+#include <core/oracle/samples/meshes.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/supersampled.hpp>
@@ -27,6 +29,13 @@ struct Ground {
     explicit Ground(const std::string& mesh, Precision precision = Precision::float32)
         : file("lic.h5"), volume(made(mesh, file.path())), renderer(device(), volume, precision) {}
 
+    explicit Ground(const VolumeData& data)
+        : file("lic.h5"), volume(written(data, file.path())), renderer(device(), volume, Precision::float32) {}
+
+    static RuntimeVolume written(const VolumeData& data, const std::string& path) {
+        write_volume(path, data);
+        return open_volume(path);
+    }
     static RuntimeVolume made(const std::string& mesh, const std::string& path) {
         generate(R"({"generator": 1, "field": "sphere", )" + mesh + "}", path);
         return open_volume(path);
@@ -320,6 +329,30 @@ TEST_CASE("Line integral convolution changes colours alone, by factors within th
         CHECK(least > 0.3 - 1e-5);
         CHECK(most <= 1 + 1e-5);
     }
+}
+
+TEST_CASE("Streaks in two dimensions are those on a plane through a volume with the same field") {
+    VolumeData sheet;
+    const std::vector<Map> maps = {[](const Vector& xi) -> Vector { return {xi.x(), xi.y(), 0}; }};
+    sheet.classes.push_back(make_class(space_of(native::Shape::quadrilateral, 2), space_of(native::Shape::quadrilateral, 2),
+                                       maps, [](const Vector& x) { return x.x(); }));
+    Ground solid(box), plane(sheet);
+    const std::string seen =
+        R"("camera": {"type": "orthographic", "eye": [0, 0, 5], "look_at": [0, 0, 0], "up": [0, 1, 0], "height": 2.2}, )";
+    const std::string lic = R"("lic": {"contrast": 1, )" + field("grad(x * y)") + "}";
+    const Frame flat_frame = plane.frame(seen + lic);
+    const Frame frame = solid.frame(seen + lic + R"(, "surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}])");
+    double largest = 0;
+    std::size_t n = 0;
+    for (std::size_t pixel = 0; pixel < std::size_t{size} * size; ++pixel) {
+        if (frame.element[pixel] >= 0 && flat_frame.element[pixel] >= 0) {
+            largest = std::max(largest, std::abs(frame.color[4 * pixel] - flat_frame.color[4 * pixel]));
+            ++n;
+        }
+    }
+    std::cout << "two dimensions: " << n << " shades differ by at most " << largest << '\n';
+    CHECK(n > 30000);
+    CHECK(largest < 1e-3);
 }
 
 TEST_CASE("Several samples a pixel have the noise of the picture") {
