@@ -74,9 +74,6 @@ SceneLineStyle read_line_style(const JsonObject& object) {
 
 SceneLic read_lic(const JsonObject& object) {
     SceneLic lic;
-    if (!object.has("field")) {
-        object.fail("field", "is missing, which line integral convolution needs: a vector field");
-    }
     lic.field = object.text("field");
     if (object.has("length")) {
         lic.length = object.number("length");
