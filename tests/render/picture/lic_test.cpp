@@ -382,7 +382,7 @@ TEST_CASE("What line integral convolution cannot follow is told") {
     CHECK_THAT(message(field(rotation) + R"(, "contrast": 2)"), Contains("contrast"));
     CHECK_THAT(
         test::error_of([&] { ground.request(R"("surfaces": [{"type": "wireframe", "lic": {)" + field(rotation) + "}}]"); }),
-        Contains("means nothing for a surface of type \"wireframe\""));
+        Contains("'surfaces[0].lic' means nothing where 'type' is \"wireframe\""));
 }
 
 } // namespace elvis::oracle
