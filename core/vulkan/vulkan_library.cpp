@@ -12,8 +12,8 @@ std::string why_no_devices() {
         return "this machine has no Vulkan loader (" + vulkan_library().missing_because() +
                "); install it (package libvulkan1, vulkan-loader or vulkan-icd-loader) and a driver";
     }
-    return "this machine has no Vulkan driver; without a GPU, install a driver for the CPU (Debian package "
-           "mesa-vulkan-drivers)";
+    return "this machine has no Vulkan driver that can be loaded (VK_LOADER_DEBUG=error in the environment tells what fails); "
+           "without a GPU, install a driver for the CPU (Debian package mesa-vulkan-drivers)";
 }
 
 } // namespace elvis

@@ -12,6 +12,8 @@ layout(set = 0, binding = 1, std430) buffer core_marks_block { core_mark core_ma
 layout(set = 0, binding = 2, std430) readonly buffer core_values_block { core_sample core_values[]; };
 // What they are compared with, and their error.
 layout(set = 0, binding = 3, std430) readonly buffer core_limit_block { elvis_real core_limit[2]; };
+// Of these values; of points that had places the flags are the picture's already.
+layout(set = 0, binding = 4, std430) readonly buffer core_value_marks_block { core_mark core_value_marks[]; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
@@ -47,7 +49,8 @@ void main() {
     const bool is_undecided = abs(margin) <= core_limit[1] + CORE_PLACE_ERROR * core_change_around(pixel, value);
     // What is cut away in doubt may hide what is found behind it.
     const uint doubt = holds ? CORE_FLAG_UNDECIDED : CORE_FLAG_UNDECIDED_IN_FRONT;
-    const uint flags = (holds ? 0u : CORE_FLAG_CUT) | (is_undecided ? doubt : 0u);
+    const uint flags =
+        (holds ? 0u : CORE_FLAG_CUT) | (is_undecided ? doubt : 0u) | (core_value_marks[pixel].flags & CORE_FLAG_ESTIMATED);
     if (flags != 0u) {
         core_marks[pixel].flags |= flags;
     }

@@ -5,11 +5,14 @@
 #include "closed_forms.hpp"
 
 #include <core/export/vtu_export.hpp>
+#include <core/expression/expression.hpp>
 #include <core/probe/probe.hpp>
 #include <tests/support/error_of.hpp>
 #include <tests/support/files.hpp>
 
 #include <catch2/catch.hpp>
+
+#include <memory>
 
 using namespace elvis;
 using namespace elvis::cut_cells;
@@ -219,4 +222,24 @@ TEST_CASE("a bad file of cut cells is refused with its line") {
                Contains("line 6") && Contains("stand above"));
     CHECK_THAT(error_for(grid), Contains("there is no cell"));
     CHECK_THAT(error_for("mesh\n"), Contains("line 2: unknown keyword 'mesh'"));
+}
+
+TEST_CASE("a plane says that what it is cut by is estimated") {
+    // The plugin has no second derivatives.
+    const RuntimeVolume volume = open(ball);
+    FieldChoice choice;
+    choice.expression = std::make_shared<const Expression>("laplacian(q)", volume.fields(), volume.dimension());
+    View view;
+    Surface surface;
+    surface.geometry = CutPlane{{0.3, 0.2, 1, 0.1}};
+    surface.field.field = field_of(volume, "q");
+    surface.colors.points = {{0, {0, 0, 1}}, {1, {1, 0, 0}}};
+    view.request.surfaces = {surface};
+    Renderer renderer(test::device(), volume, Precision::float64);
+    CHECK(renderer.render(view.request).counts.estimated_pixels == 0);
+    // It holds everywhere: the Laplacian of r^2 is 6.
+    view.request.surfaces[0].conditions = {Condition{choice, 5, true, false}};
+    const Frame frame = renderer.render(view.request);
+    CHECK(frame.counts.hit_pixels > 1000);
+    CHECK(frame.counts.estimated_pixels == frame.counts.hit_pixels);
 }

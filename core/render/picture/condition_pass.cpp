@@ -17,7 +17,7 @@ struct ConditionParameters {
 
 ConditionPass::ConditionPass(const Device& device, Precision precision)
     : m_precision(precision),
-      m_kernel(device, pixel_kernel("picture/condition", precision, {.storage = 4}, sizeof(ConditionParameters))),
+      m_kernel(device, pixel_kernel("picture/condition", precision, {.storage = 5}, sizeof(ConditionParameters))),
       m_limit(device, 2 * real_bytes(precision)) {}
 
 void ConditionPass::judge(const Layer& layer, const Layer& values, const ConditionLimit& limit) const {
@@ -25,8 +25,8 @@ void ConditionPass::judge(const Layer& layer, const Layer& values, const Conditi
     write_reals(m_limit, m_precision, numbers);
     const ConditionParameters parameters{static_cast<std::uint32_t>(layer.n_pixels()), pixel_groups_x, layer.width,
                                          limit.is_above ? 1u : 0u, limit.takes_equal ? 1u : 0u};
-    dispatch_rows(m_kernel, {&layer.samples, &layer.marks, &values.samples, &m_limit}, std::as_bytes(std::span(&parameters, 1)),
-                  layer);
+    dispatch_rows(m_kernel, {&layer.samples, &layer.marks, &values.samples, &m_limit, &values.marks},
+                  std::as_bytes(std::span(&parameters, 1)), layer);
 }
 
 } // namespace elvis

@@ -25,7 +25,8 @@ public:
 
     /**
      * Marks the pixels of `layer` whose value in `values` does not meet the limit as cut (CORE_FLAG_CUT), and those as
-     * undecided of which rounding decides it. Where the surface lies in no element, nothing is cut.
+     * undecided of which rounding decides it. Values that are estimated say so there. Where the surface lies in no element,
+     * nothing is cut.
      */
     void judge(const Layer& layer, const Layer& values, const ConditionLimit& limit) const;
 
