@@ -40,8 +40,13 @@ bool core_is_taken(uint status, core_findings findings) {
 core_accuracy core_accuracy_along(elvis_real speed, elvis_real start, elvis_real from, elvis_real until, const core_light light) {
     const elvis_real tolerance = elvis_real(core_tolerance);
     const elvis_real ahead = max(elvis_real(core_extent) / speed - (from - start), until - from);
+#if CORE_HAS_JUMPS
+    // How far the error of a value moves the place of a jump is not known: samples are as good as rounding lets them be.
+    const elvis_real enough = elvis_real(0);
+#else
     const elvis_real enough = elvis_real(0.0625LF) * max(tolerance - light.error, elvis_real(0.0625LF) * tolerance) /
                               (elvis_real(core_steepest) * (until - from) * speed * max(light.transmittance, elvis_real(1e-6LF)));
+#endif
     return core_accuracy(speed, tolerance, ahead, enough);
 }
 

@@ -407,6 +407,16 @@ TEST_CASE("Colours that jump do not flag rough fields all over") {
     CHECK(tally.flagged < tally.pixels / 100);
 }
 
+TEST_CASE("Where light changes at a jump alone, samples are good enough to place it") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    FrameRequest request = request_of_rough_field({1.914, -4.491, -0.042}, {-0.030, -0.138, 0.014}, {-0.913, -0.408, 0}, 28);
+    request.volume.emplace().transfer = {{{0, 0.3}}, {{1.0244, {0.3, 0.9, 0.9}}, {1.0244, {0, 0.6, 0.9}}}};
+    const Tally tally = judge_rough_field(request, precision);
+    std::cout << "one jump: " << tally.flagged << " of " << tally.pixels << " flagged\n";
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged < tally.pixels / 50);
+}
+
 TEST_CASE("The adaptive rule misses no narrow peak in a field of high order") {
     const TemporaryFile file("rough.h5");
     const PluginRegistry plugins;
