@@ -127,6 +127,7 @@ std::uint32_t LayeredPicture::draw_layer(SurfaceDrawing& drawing, const Setting&
 void LayeredPicture::cut_where_conditions_fail(SurfaceDrawing& drawing, const LayerTarget& target) {
     for (const Condition& condition : drawing.surface().conditions) {
         const ConditionLimit limit = drawing.limit_of(condition);
+        m_other_values->marks.fill(0);
         drawing.draw_field(condition.field, target, *m_other_values, m_frame->counts);
         m_condition_pass->judge(*m_layer, *m_other_values, limit);
     }

@@ -78,12 +78,12 @@ void SurfaceDrawing::draw_field(const FieldChoice& field, const LayerTarget& tar
     m_fields.upload(field, m_request.time_step);
     const ShownComponent component = m_fields.component(field);
     FieldPasses& passes = m_passes.of(field);
-    values.marks.fill(0);
     if (m_traits.plane == nullptr) {
         passes.point_values().draw(component, target, values.samples, counts);
         return;
     }
     // Planes write no places: the same points are found again.
+    values.marks.fill(0);
     passes.cut_planes(false).draw(m_rays, first, component, {}, {.layer = values, .wants_normals = false}, counts);
 }
 
