@@ -20,6 +20,7 @@
 #include <vector>
 
 namespace elvis {
+
 /** What passes of one picture take from each other. Each can be turned on and off to compare. */
 struct Sharing {
     /**
@@ -70,7 +71,7 @@ struct FrameRequest {
     std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
     bool with_buffers = true;
-    /** Frame::screen is given, a sixteenth of the bytes, and all other vectors stay empty. */
+    /** Frame::screen is given, a fourth or an eighth of the bytes, and all other vectors stay empty. */
     bool for_screen = false;
     Sharing sharing;
     /** What people should know of how the request came to be; nothing to the renderer. */

@@ -201,8 +201,9 @@ std::vector<Domain> domains(double sin_range, double largest_exponent, double la
 TEST_CASE("Elementary functions are accurate to two units in the last place") {
     const Device device;
     for (const Domain& domain : domains(1e5, 125, 87)) {
-        // The angle of a point loses what the device's division does, for which Vulkan allows 2.5 units.
-        largest_error<float>(device, domain, domain.function == std::string("atan(y, x)") ? 4.5 : 2);
+        // The angle of a point loses what the device's division does: half a unit on processors; Vulkan allows 2.5 (2.44 seen).
+        const bool divides = domain.function == std::string("atan(y, x)") && device.summary().type != "cpu";
+        largest_error<float>(device, domain, divides ? 4.5 : 2);
     }
     for (const Domain& domain : domains(1.6e6, 1020, 707)) {
         largest_error<double>(device, domain, 2);

@@ -4,7 +4,9 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <span>
 
 using namespace elvis;
 using Catch::Contains;
@@ -47,6 +49,30 @@ TEST_CASE("What is written to a buffer is read back, mapped or staged") {
     CHECK(buffer.read_items<std::uint32_t>(4, 9) == std::vector<std::uint32_t>{16, 1, 2, 19});
     buffer.fill(0xabcd1234u);
     CHECK(buffer.read_items<std::uint32_t>(2, n - 2) == std::vector<std::uint32_t>{0xabcd1234u, 0xabcd1234u});
+    CHECK(device.validation_messages() == std::vector<std::string>{});
+}
+
+TEST_CASE("Buffers are read together, mapped or staged, with as few waits as the staging buffer asks for") {
+    const bool always_stage = GENERATE(false, true);
+    DeviceOptions options = validated(always_stage);
+    options.submissions = Submissions::collected;
+    const Device device(options);
+    // Two that fit together, one that is larger than the staging buffer, one of which nothing is wanted, and two more.
+    const std::array<std::size_t, 6> sizes = {1000, 2000, (40u << 20u) / 4, 0, 3000, 1};
+    std::vector<Buffer> buffers;
+    std::vector<std::vector<std::uint32_t>> written, found;
+    for (const std::size_t size : sizes) {
+        buffers.emplace_back(device, 4 * std::max<std::size_t>(size, 1));
+        written.emplace_back(size);
+        std::iota(written.back().begin(), written.back().end(), static_cast<std::uint32_t>(written.size()) << 24u);
+        buffers.back().write_items<std::uint32_t>(written.back());
+        found.emplace_back(size);
+    }
+    const auto read = [&](std::size_t i) { return Buffer::Read{&buffers[i], std::as_writable_bytes(std::span(found[i]))}; };
+    const std::uint64_t before = device.work().host_waits;
+    Buffer::read_together({read(0), read(1), read(2), read(3), read(4), read(5)});
+    CHECK(found == written);
+    CHECK(device.work().host_waits - before <= (always_stage ? 4 : 1));
     CHECK(device.validation_messages() == std::vector<std::string>{});
 }
 

@@ -117,7 +117,7 @@ TEST_CASE("arrows have the depth of their cylinder and cone, the value that they
              << ", of 99 of 100 pixels " << errors[errors.size() * 99 / 100]);
         CHECK(n_wrong == 0);
         CHECK(n_hits > 1000);
-        // Outlines of thin arrows, where rounding decides in single precision.
+        // Outlines of thin arrows, where rounding decides in single precision: 332 of 9647.
         CHECK(n_flagged < (precision == Precision::float64 ? 20 : 400));
     }
 }
