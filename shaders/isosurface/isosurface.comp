@@ -66,7 +66,7 @@ layout(push_constant) uniform core_parameters {
 #include "isosurface/octant_search.glsl"
 
 // Iterations of one pixel: all pixels of an invocation stay below where drivers end loops.
-#define CORE_WORK_LIMIT 1500u
+#define CORE_WORK_LIMIT 4000u
 
 // The root, as a crossing of the ray.
 core_nearest_crossing core_found_at(const core_evaluation evaluation, const core_root root) {

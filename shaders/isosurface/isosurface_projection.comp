@@ -68,7 +68,7 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #include "segments/colleague.glsl"
 
 // Iterations of a pixel, with all loops inside below where drivers end them.
-#define CORE_WORK_LIMIT 2500u
+#define CORE_WORK_LIMIT 8000u
 
 // Times that a segment may be halved. A field that is smooth needs few; that its derivatives jump is seen at the last.
 #if ELVIS_REAL_IS_DOUBLE

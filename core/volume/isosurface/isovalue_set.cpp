@@ -20,8 +20,9 @@ constexpr std::uint32_t octant_is_estimated = 0x80000000u;
 constexpr std::uint32_t most_levels = 3;
 /** Of octants whose mapping is bent so much that it has no linear model. */
 constexpr std::uint32_t most_bent_levels = 6;
-/** Octants for which there is room where there are fewer elements, and octants of one level that are looked at for them. */
-constexpr std::uint64_t most_octants = 1u << 17, most_looked_at = 1u << 18;
+/** Octants for which there is room where there are fewer elements; and of each element that is bent more than this. */
+constexpr std::uint64_t least_room = 1u << 17, most_room = 1u << 20, room_of_bent_element = 4096;
+constexpr float small_curvature = 0.25f;
 /**
  * Elements are divided where their error is more than this share of how much the field varies in them, octants where it is more
  * than that: many small octants cost more to look through than they spare evaluations.
@@ -37,6 +38,12 @@ bool holds_any(double lower, double upper, std::span<const double> isovalues) {
     const auto first = std::lower_bound(isovalues.begin(), isovalues.end(), lower);
     // A range that is no number, as of an element with such values, says nothing.
     return !(lower <= upper) || (first != isovalues.end() && *first <= upper);
+}
+
+/** Octants for which there is room. */
+std::uint64_t room_for(std::span<const float> curvatures, std::uint64_t n_elements) {
+    const auto n_bent = std::count_if(curvatures.begin(), curvatures.end(), [](float c) { return !(c <= small_curvature); });
+    return std::max(n_elements, std::clamp(static_cast<std::uint64_t>(n_bent) * room_of_bent_element, least_room, most_room));
 }
 
 } // namespace
@@ -83,10 +90,11 @@ IsovalueSet::IsovalueSet(const Device& device, const RuntimeVolume& volume, cons
         // Room for all elements, so that kernels composed with it stay valid.
         of_class.nodes =
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, node_size);
-        const std::uint64_t n_octants = std::max(n_elements, most_octants);
+        of_class.room = room_for(data.curvatures(index), n_elements);
         of_class.octant_nodes =
-            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_octants - 1, node_size);
-        of_class.octants = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_octants, octant_size);
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * of_class.room - 1, node_size);
+        of_class.octants =
+            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), of_class.room, octant_size);
         KernelRequest request;
         request.name = "octants of element class " + std::to_string(index);
         request.kernel = "isosurface/octants.comp";
@@ -190,7 +198,7 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape) {
                 undivided.add(octants, i);
             }
         }
-        if (wanted.empty() || wanted.size() / 2 > most_looked_at) {
+        if (wanted.empty() || wanted.size() / 2 > 2 * of_class.room) {
             break;
         }
         const Octants candidates = evaluate(of_class, wanted);
@@ -200,7 +208,7 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape) {
                 divided.add(candidates, i);
             }
         }
-        if (done.size() + undivided.size() + divided.size() > most_octants) {
+        if (done.size() + undivided.size() + divided.size() > of_class.room) {
             break;
         }
         done.append(undivided);

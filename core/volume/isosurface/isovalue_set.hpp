@@ -55,7 +55,8 @@ private:
         std::vector<std::uint32_t> chosen;
         std::vector<double> boxes;
         bool has_element_nodes = false;
-        std::uint64_t n_octants = 0;
+        /** Octants, and those for which there is room. */
+        std::uint64_t n_octants = 0, room = 0;
     };
     struct Octants;
     struct Choice {
