@@ -10,7 +10,11 @@ elvis_real core_max_norm(elvis_vec3 v) { return max(max(abs(v.x), abs(v.y)), abs
 
 struct core_frame {
     elvis_vec3 row0, row1, row2;
-    elvis_vec3 xi_error;
+    // Of positions, and what that makes of reference coordinates.
+    elvis_vec3 position_error, xi_error;
+    // Of the Jacobian's columns, and their product over the determinant: what rounding of its inverse grows by.
+    elvis_vec3 lengths;
+    elvis_real conditioning;
     bool is_sound;
 };
 
@@ -28,9 +32,17 @@ core_frame core_frame_at(elvis_vec3 position, elvis_mat3 jacobian, elvis_real po
     // its own size, where positions are not relative to the element); J^-1 takes that to xi. 4: rounding in the sums over modes.
     const elvis_vec3 extent = abs(jacobian[0]) + abs(jacobian[1]) + abs(jacobian[2]) + abs(position);
     const elvis_vec3 error = elvis_real(4) * CORE_ROUNDOFF * extent + position_error;
+    frame.position_error = error;
     frame.xi_error = elvis_vec3(dot(abs(frame.row0), error), dot(abs(frame.row1), error), dot(abs(frame.row2), error));
+    frame.lengths = elvis_vec3(length(jacobian[0]), length(jacobian[1]), length(jacobian[2]));
+    frame.conditioning = frame.lengths.x * frame.lengths.y * frame.lengths.z * abs(inverse_determinant);
     frame.is_sound = core_is_finite(inverse_determinant);
     return frame;
+}
+
+// The gradient in the world that `slope` is in reference coordinates.
+elvis_vec3 core_to_world(core_frame frame, elvis_vec3 slope) {
+    return slope.x * frame.row0 + slope.y * frame.row1 + slope.z * frame.row2;
 }
 
 elvis_vec3 core_to_xi(core_frame frame, elvis_vec3 x) {

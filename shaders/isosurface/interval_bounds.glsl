@@ -104,7 +104,7 @@ core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search 
 #endif
     core_model model;
     elvis_real value;
-    core_interval_take_field(evaluation.interval, evaluation.element, evaluation.xi, model, value);
+    core_interval_take_field(evaluation.interval, evaluation.element, evaluation.xi, evaluation.frame, model, value);
     evaluation.slope = model.slope;
     evaluation.candidate = core_first_linear_root(evaluation.interval);
     const elvis_real radius = evaluation.interval.radius;

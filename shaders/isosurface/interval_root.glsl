@@ -44,8 +44,7 @@ core_root core_root_of(const core_evaluation evaluation, const core_interval_sea
     const elvis_vec3 to_root = interval.q + candidate.s * interval.w;
     const elvis_real distance = core_max_norm(to_root);
     root.xi = evaluation.xi + to_root;
-    // J^-T times the gradient in xi.
-    root.gradient = evaluation.slope.x * frame.row0 + evaluation.slope.y * frame.row1 + evaluation.slope.z * frame.row2;
+    root.gradient = core_to_world(frame, evaluation.slope);
     // At least the spectral norm of J^-1: the square root of the largest sums of rows and columns.
     const elvis_vec3 columns = abs(frame.row0) + abs(frame.row1) + abs(frame.row2);
     const elvis_real rows = max(max(core_model_norm1(frame.row0), core_model_norm1(frame.row1)), core_model_norm1(frame.row2));

@@ -21,8 +21,10 @@ struct core_ray_interval {
     elvis_real low, high;
     // By how much at least all of the interval violates one face, as predicted; negative if it does not.
     elvis_real clearance;
-    // Largest offset from xi of what is left, in the maximum norm, and what the linearization leaves out there.
-    elvis_real radius, beyond;
+    // Largest offset from xi of what is left, in the maximum norm; what the linearization leaves out there, without rounding and with it.
+    elvis_real radius, bent_off, beyond;
+    // In the world.
+    elvis_real way;
     elvis_real value, slope, error;
     bool is_known;
 };
@@ -50,9 +52,9 @@ core_ray_interval core_interval_in_element(elvis_vec3 xi, const core_frame frame
     // What is left is nearer, and so better known: a second time.
     for (int iteration = 0; iteration < 2; ++iteration) {
         const elvis_real step = core_interval_radius(interval);
-        interval.beyond = (farthest > elvis_real(0) ? core_prediction_error_within(curvature, step, farthest)
-                                                    : core_prediction_error(curvature, step)) +
-                          rounding;
+        interval.bent_off = farthest > elvis_real(0) ? core_prediction_error_within(curvature, step, farthest)
+                                                     : core_prediction_error(curvature, step);
+        interval.beyond = interval.bent_off + rounding;
         interval.radius = step + interval.beyond;
         elvis_real low = interval.low, high = interval.high;
         for (int face = 0; face < CORE_N_FACES; ++face) {
@@ -69,6 +71,7 @@ core_ray_interval core_interval_in_element(elvis_vec3 xi, const core_frame frame
         interval.low = low;
         interval.high = high;
     }
+    interval.way = max(length(offset + interval.low * direction), length(offset + interval.high * direction));
     return interval;
 }
 
@@ -85,7 +88,18 @@ void core_cut_interval_inside(core_inside g, inout core_ray_interval interval) {
 }
 #endif
 
-void core_interval_take_field(inout core_ray_interval interval, uint element, elvis_vec3 xi, out core_model model, out elvis_real value) {
+// What rounding makes of the field at the interval's points. A position that is off moves the field by its gradient in the world: in
+// elements whose Jacobian is nearly singular, that is far less than what the reference coordinates are off would make of its slope.
+elvis_real core_value_rounding(const core_ray_interval interval, const core_frame frame, elvis_vec3 slope) {
+    const elvis_vec3 offset = max(abs(interval.q + interval.low * interval.w), abs(interval.q + interval.high * interval.w));
+    const elvis_real by_position = dot(abs(core_to_world(frame, slope)), frame.position_error);
+    // Of the Jacobian, relative to the element's size, and of its inverse: cofactors, and the determinant.
+    const elvis_real by_inverse = frame.conditioning * dot(abs(slope), offset + interval.way / frame.lengths);
+    return (elvis_real(1) + elvis_real(4) * interval.radius) * by_position + elvis_real(8) * CORE_ROUNDOFF * by_inverse;
+}
+
+void core_interval_take_field(inout core_ray_interval interval, uint element, elvis_vec3 xi, const core_frame frame, out core_model model,
+                              out elvis_real value) {
     core_region region;
     region.corner0 = interval.q + interval.low * interval.w;
     region.corner1 = interval.q + interval.high * interval.w;
@@ -98,7 +112,8 @@ void core_interval_take_field(inout core_ray_interval interval, uint element, el
     interval.value = model.value + dot(model.slope, interval.q);
     interval.slope = dot(model.slope, interval.w);
     interval.error = CORE_MODEL_UP * (model.remainder + core_model_norm1(model.slope) *
-                                                         (interval.beyond + elvis_real(4) * CORE_ROUNDOFF * interval.radius)) +
+                                                         (interval.bent_off + elvis_real(4) * CORE_ROUNDOFF * interval.radius)) +
+                  core_value_rounding(interval, frame, model.slope) +
                   elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
     interval.is_known = core_model_is_known(model);
 }
