@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "library_context.hpp"
 #include "open_volume.hpp"
-#include "warp_option.hpp"
+#include "volume_arguments.hpp"
 
 #include <core/base/counted.hpp>
 
@@ -20,9 +20,7 @@ namespace {
 using nlohmann::ordered_json;
 
 struct InfoArguments {
-    std::vector<std::string> files;
-    std::string plugin;
-    WarpArguments warp;
+    VolumeArguments volume;
     std::uint32_t time_step = 0;
     double jacobian_tolerance = 1e-9;
     bool lists_all = false;
@@ -137,9 +135,7 @@ void print_table(const ordered_json& root) {
 void add_info(CLI::App& app) {
     CLI::App* command = app.add_subcommand("info", "Say what is in a volume");
     auto a = std::make_shared<InfoArguments>();
-    command->add_option("volume", a->files, "Volume, whatever its format (geometry first, then field files)")->required();
-    command->add_option("--plugin", a->plugin, "Id of the plugin (default: the one surest of the file)");
-    add_warp(*command, a->warp);
+    add_volume_arguments(*command, a->volume);
     command->add_option("--time-step", a->time_step, "Time step whose ranges are given");
     command
         ->add_option("--jacobian-tolerance", a->jacobian_tolerance,
@@ -152,9 +148,7 @@ void add_info(CLI::App& app) {
     command->add_flag("--json", a->json, "Answer in JSON");
     command->callback([a] {
         const context library = library_context();
-        const data volume =
-            warped(open_watched([&](const task& watch) { return library.open(a->files, a->plugin, {}, watch); }), a->warp,
-                   a->time_step);
+        const data volume = open_volume(library, a->volume, a->time_step);
         auto options = detail::sized<elvis_describe_options>();
         options.flags = ELVIS_DESCRIBE_JACOBIAN_TOLERANCE | (a->lists_all ? ELVIS_DESCRIBE_ALL : 0u);
         options.time_step = a->time_step;

@@ -1,7 +1,7 @@
 #include "commands.hpp"
 #include "library_context.hpp"
 #include "open_volume.hpp"
-#include "warp_option.hpp"
+#include "volume_arguments.hpp"
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -25,9 +25,7 @@ namespace elvis::commands {
 namespace {
 
 struct ProbeArguments {
-    std::vector<std::string> files;
-    std::string plugin;
-    WarpArguments warp;
+    VolumeArguments volume;
     std::vector<std::string> points;
     std::string points_file;
     std::vector<std::string> expressions;
@@ -276,17 +274,15 @@ void print_table(const Answers& answers) {
 void run_probe(const ProbeArguments& arguments) {
     const std::vector<double> positions = positions_of(arguments);
     const context library = library_context(arguments.device);
-    const data volume =
-        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
-               arguments.warp, arguments.time_step);
+    const data volume = open_volume(library, arguments.volume, arguments.time_step);
     const Answers answers(volume, arguments, positions);
     arguments.json ? print_json(answers) : print_table(answers);
     std::size_t n_unknown = 0;
     for (std::size_t point = 0; point < answers.n_points(); ++point)
         n_unknown += answers.is_unknown(point);
     if (n_unknown > 0)
-        throw Error(arguments.files.front(), "the inverse mapping failed at " + counted(n_unknown, "point") +
-                                                 ": whether they lie in the volume is not known");
+        throw Error(arguments.volume.files.front(), "the inverse mapping failed at " + counted(n_unknown, "point") +
+                                                        ": whether they lie in the volume is not known");
 }
 
 } // namespace
@@ -295,16 +291,13 @@ void add_probe(CLI::App& app) {
     auto arguments = std::make_shared<ProbeArguments>();
     CLI::App* command =
         app.add_subcommand("probe", "Print element, reference coordinates and fields at points, in double precision");
-    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
-        ->required();
-    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    add_volume_arguments(*command, arguments->volume);
     command->add_option("--point", arguments->points, "Point x,y,z (repeatable)")->allow_extra_args(false);
     command->add_option("--points", arguments->points_file, "File with three numbers a line; # starts a comment");
     command
         ->add_option("--field", arguments->expressions,
                      "Expression over the fields, e.g. \"norm(curl(u))\", to evaluate as well (repeatable)")
         ->allow_extra_args(false);
-    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command
         ->add_option("--evaluate", arguments->evaluation,

@@ -218,6 +218,17 @@ public:
         run(progress, [&](const task& watch) { displaced.emplace(m_data.warp(wanted, watch)); });
         return std::make_unique<Volume>(m_context, std::move(*displaced));
     }
+    std::unique_ptr<Volume>
+    join(const std::vector<std::tuple<std::string, const Volume*, std::optional<std::uint32_t>>>& others,
+         const py::object& progress) const {
+        std::vector<data::joined> wanted;
+        for (const auto& [name, volume, time_step] : others) {
+            wanted.push_back({name, &volume->m_data, time_step.value_or(ELVIS_SAME_TIME_STEP)});
+        }
+        std::optional<data> together;
+        run(progress, [&](const task& watch) { together.emplace(m_data.join(wanted, watch)); });
+        return std::make_unique<Volume>(m_context, std::move(*together));
+    }
     /** What elvis_data_extract finds, by the names of the package's Mesh. */
     py::dict extract(elvis_domain domain, const std::vector<std::string>& groups, const std::array<double, 4>& plane,
                      const std::optional<std::string>& level_field, double isovalue,
@@ -537,6 +548,7 @@ PYBIND11_MODULE(_elvis, module) {
              py::arg("progress"))
         .def("warp", &Volume::warp, py::arg("field"), py::arg("factor"), py::arg("imaginary"), py::arg("phase"),
              py::arg("time_step"), py::arg("progress"))
+        .def("join", &Volume::join, py::arg("others"), py::arg("progress"))
         .def("extract", &Volume::extract, py::arg("domain"), py::arg("groups"), py::arg("plane"), py::arg("level_field"),
              py::arg("isovalue"), py::arg("contour_field"), py::arg("contours"), py::arg("fields"), py::arg("tolerance"),
              py::arg("time_step"), py::arg("progress"))

@@ -194,7 +194,17 @@ elvis_result elvis_scene_open_volume(const elvis_scene* scene, const elvis_task*
         }
         std::vector<std::string> files{said.volume};
         files.insert(files.end(), said.more_files.begin(), said.more_files.end());
-        *data = new elvis_data{open_data(scene->state.context, files, said.plugin, said.plugin_options, task)};
+        std::shared_ptr<Data> opened = open_data(scene->state.context, files, said.plugin, said.plugin_options, task);
+        std::vector<JoinedData> others;
+        for (const SceneJoin& join : said.joined) {
+            std::vector<std::string> theirs{join.path};
+            theirs.insert(theirs.end(), join.more_files.begin(), join.more_files.end());
+            others.push_back(
+                {join.name,
+                 join.path.empty() ? opened : open_data(scene->state.context, theirs, join.plugin, join.plugin_options, task),
+                 join.time_step});
+        }
+        *data = new elvis_data{others.empty() ? std::move(opened) : join_data(opened, others, task)};
     });
 }
 

@@ -133,6 +133,17 @@ private:
 std::shared_ptr<Data> open_data(const std::shared_ptr<Context>& context, const std::vector<std::string>& paths,
                                 const std::string& plugin, const std::string& options, const elvis_task* task);
 
+/** Data whose fields are joined: see elvis_join. */
+struct JoinedData {
+    std::string name;
+    std::shared_ptr<Data> data;
+    std::optional<std::uint32_t> time_step;
+};
+
+/** Data with the fields of others beside their own. No data is in use by the caller. */
+std::shared_ptr<Data> join_data(const std::shared_ptr<Data>& data, const std::vector<JoinedData>& others,
+                                const elvis_task* task);
+
 /** A scene: the document, what it says, and the file beside which it is. */
 struct SceneState {
     std::shared_ptr<Context> context;

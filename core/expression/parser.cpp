@@ -248,13 +248,28 @@ private:
         if (!begins_name(c)) {
             m_values.fail(place, "expected a value, found '" + word_at(place) + "'");
         }
-        const std::string word = name();
+        std::string word = name();
         if (peek() == '(') {
             return call(word, place);
         }
+        word += joined_name(word);
         const auto is_named = [&](const FieldInfo& info) { return info.name == word; };
         return std::any_of(m_scope.fields.begin(), m_scope.fields.end(), is_named) ? m_values.field(word, place)
                                                                                    : m_values.built_in(word, place);
+    }
+
+    /** `.FIELD` behind the name of a joined volume, if there is such a field; else nothing is read. */
+    std::string joined_name(const std::string& word) {
+        const std::size_t before = m_at;
+        if (peek() == '.' && m_at + 1 < m_text.size() && begins_name(m_text[m_at + 1])) {
+            ++m_at;
+            const std::string joined = "." + name();
+            if (std::ranges::any_of(m_scope.fields, [&](const FieldInfo& info) { return info.name == word + joined; })) {
+                return joined;
+            }
+        }
+        m_at = before;
+        return {};
     }
 
     Value literal() {

@@ -70,7 +70,27 @@ const Value& ValueBuilder::vector(const Value& value, std::size_t least, std::si
     return value;
 }
 
+std::optional<Value> ValueBuilder::difference_field(const Value& a, const Value& b) {
+    if (!a.field || !b.field || a.component != b.component) {
+        return std::nullopt;
+    }
+    const std::string name = m_scope.fields[*a.field].name + " - " + m_scope.fields[*b.field].name;
+    if (std::ranges::none_of(m_scope.fields, [&](const FieldInfo& info) { return info.name == name; })) {
+        return std::nullopt;
+    }
+    const Value whole = field(name, a.place);
+    return a.component < 0 ? whole : component(whole, static_cast<std::uint32_t>(a.component), a.place);
+}
+
 Value ValueBuilder::combine(Operation operation, const Value& a, const Value& b) {
+    if (operation == Operation::subtract) {
+        if (const std::optional<Value> known = difference_field(a, b)) {
+            return *known;
+        }
+        if (const std::optional<Value> reverse = difference_field(b, a)) {
+            return each(*reverse, [&](NodeId entry) { return m_graph.unary(Operation::negate, entry); });
+        }
+    }
     const bool is_sum = operation == Operation::add || operation == Operation::subtract;
     if (is_sum && a.rank == b.rank && a.rank > 0) {
         if (a.entries.size() != b.entries.size()) {

@@ -71,6 +71,9 @@ public:
     NodeId truth(const Value& value);
     /** Sum, difference, product, quotient and others of two values. */
     Value combine(Operation operation, const Value& a, const Value& b);
+    /** Of two fields or components, if the volume has the field "A - B": fields that are joined
+     * (elvis/native/joined_volume.hpp). */
+    std::optional<Value> difference_field(const Value& a, const Value& b);
     /** Entry by entry, where both have the same; else of their numbers. */
     Value choose(const Value& condition, const Value& yes, const Value& no);
     /** What an index, which stands at `place`, takes of a value. */

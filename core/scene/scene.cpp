@@ -60,21 +60,36 @@ void read_volume(const JsonObject& volume, const std::string& path, Scene& scene
     }
 }
 
-SceneVolume read_further_volume(const JsonObject& object, const std::string& path) {
-    SceneVolume volume;
+/** The keys of files, if they are there. `Files`: SceneVolume or SceneJoin. */
+template <class Files> void read_files(const JsonObject& object, const std::string& path, Files& wanted) {
     if (object.has("path")) {
         Scene files;
         read_volume(object, path, files);
-        volume = {files.volume, files.more_files, files.plugin, files.plugin_options};
+        wanted.path = files.volume;
+        wanted.more_files = files.more_files;
+        wanted.plugin = files.plugin;
+        wanted.plugin_options = files.plugin_options;
     }
     for (const char* const key : {"more_paths", "plugin", "options"}) {
-        if (object.has(key) && volume.path.empty()) {
+        if (object.has(key) && wanted.path.empty()) {
             object.fail(key, "goes with 'path', which is missing");
         }
     }
     if (object.has("time_step")) {
-        volume.time_step = object.integer("time_step");
+        wanted.time_step = object.integer("time_step");
     }
+}
+
+SceneJoin read_join(const JsonObject& object, const std::string& path) {
+    SceneJoin join;
+    join.name = object.text("name");
+    read_files(object, path, join);
+    return join;
+}
+
+SceneVolume read_further_volume(const JsonObject& object, const std::string& path) {
+    SceneVolume volume;
+    read_files(object, path, volume);
     if (object.has("offset")) {
         volume.offset = fixed<3>(object.numbers("offset"));
     }
@@ -146,7 +161,11 @@ Scene scene_of(const nlohmann::json& document, const std::string& path) {
     root.integer("version");
     Scene scene;
     if (root.has("volume")) {
-        read_volume(root.object("volume"), path, scene);
+        const JsonObject volume = root.object("volume");
+        read_volume(volume, path, scene);
+        for (const JsonObject& join : volume.has("joined") ? volume.objects("joined") : std::vector<JsonObject>()) {
+            scene.joined.push_back(read_join(join, path));
+        }
     }
     if (root.has("volumes")) {
         for (const JsonObject& volume : root.objects("volumes")) {

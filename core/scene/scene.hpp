@@ -214,6 +214,19 @@ struct SceneVolume {
     std::optional<std::string> field{};
 };
 
+/** A volume with the same elements, whose fields are there beside the scene's own: its p is NAME.p. */
+struct SceneJoin {
+    std::string name;
+    /** Empty: the scene's own files. */
+    std::string path{};
+    std::vector<std::string> more_files{};
+    std::string plugin{};
+    /** JSON text, or empty. */
+    std::string plugin_options{};
+    /** If absent, the scene's; of a volume with one time step, that. */
+    std::optional<std::uint32_t> time_step{};
+};
+
 struct Scene {
     std::string volume;
     /** Further files of the same foreign data set. */
@@ -222,6 +235,7 @@ struct Scene {
     /** JSON text, or empty. */
     std::string plugin_options;
     std::uint32_t time_step = 0;
+    std::vector<SceneJoin> joined;
     /** Further ones in the same picture. */
     std::vector<SceneVolume> volumes;
     std::optional<SceneWarp> warp;

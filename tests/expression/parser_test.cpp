@@ -168,3 +168,26 @@ TEST_CASE("equal parts of an expression are one") {
     const auto n = [](const Expression& expression) { return expression.graph().needed({expression.value()}).size(); };
     CHECK(n(twice) == n(once) + 1);
 }
+
+TEST_CASE(
+    "fields of joined volumes are named with a dot, and differences of two are fields of their own where there are such") {
+    const auto number = [](const char* name, std::uint32_t n_components) {
+        FieldInfo info;
+        info.name = name;
+        info.n_components = n_components;
+        return info;
+    };
+    const std::vector<FieldInfo> fields = {number("p", 1),   number("u", 3),       number("b.p", 1),    number("b.u", 3),
+                                           number("b.q", 1), number("p - b.p", 1), number("u - b.u", 3)};
+    const auto plain = [&](const char* text) { return Expression(text, fields).plain(); };
+    CHECK(plain("b.q")->field == 4);
+    CHECK(plain(" p-b.p ")->field == 5);
+    CHECK(plain("u[1] - b.u[1]")->field == 6);
+    CHECK(plain("u[1] - b.u[1]")->component == 1);
+    CHECK(plain("(u - b.u)[2]")->component == 2);
+    CHECK(!plain("b.p - p"));
+    CHECK(!plain("p - b.q"));
+    CHECK(!plain("u[0] - b.u[1]"));
+    CHECK_THROWS_WITH(Expression("b.r", fields), Catch::Contains("'b' is unknown"));
+    CHECK_THROWS_WITH(Expression("p.b", fields), Catch::Contains("expected an operator"));
+}

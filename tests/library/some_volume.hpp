@@ -26,8 +26,10 @@ inline constexpr const char* bent_box = R"({"generator": 1, "mesh": "waves", "el
     "fields": [{"field": "polynomial", "name": "p", "coefficients": [[2, 1, 0, 1], [0, 0, 1, 1]]}]})";
 
 /** What the generator makes of the description, in the folder. */
-inline std::string convert(const context& library, const TemporaryFolder& folder, const char* description = bent_box) {
-    const std::string input = folder.path("input.json"), output = folder.path("volume.h5");
+/** Into a file of that name; returns the report. */
+inline std::string convert_to(const context& library, const TemporaryFolder& folder, const std::string& name,
+                              const std::string& description) {
+    const std::string input = folder.path("input.json"), output = folder.path(name);
     std::ofstream(input) << description;
     auto conversion = detail::sized<elvis_conversion>();
     const char* const inputs[] = {input.c_str()};
@@ -35,8 +37,12 @@ inline std::string convert(const context& library, const TemporaryFolder& folder
     conversion.inputs = inputs;
     conversion.output = output.c_str();
     conversion.order = -1;
-    CHECK_THAT(library.convert(conversion), Catch::Contains("\"exact\": true"));
-    return output;
+    return library.convert(conversion);
+}
+
+inline std::string convert(const context& library, const TemporaryFolder& folder, const char* description = bent_box) {
+    CHECK_THAT(convert_to(library, folder, "volume.h5", description), Catch::Contains("\"exact\": true"));
+    return folder.path("volume.h5");
 }
 
 } // namespace elvis::test

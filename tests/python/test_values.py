@@ -142,6 +142,15 @@ class Values(WithVolume):
         self.assertEqual(picture.color.shape[:2], (24, 32))
         self.assertRaises(elvis.Error, lambda: self.volume.warp("p"))
 
+    def test_joined_volumes_have_the_fields_of_both(self):
+        point = np.array([0.3, -0.2, 0.4])
+        both = self.volume.join({"other": self.volume, "first": self.volume}, time_steps={"first": 0})
+        values = both.probe(point, ["p - other.p", "p - first.p", "other.p", "p"])
+        self.assertEqual((values["p - other.p"][0], values["p - first.p"][0]), (0, 0))
+        self.assertEqual(values["other.p"][0], values["p"][0])
+        self.assertRaises(elvis.Error, lambda: self.volume.join({"no name": self.volume}))
+        self.assertRaises(ValueError, lambda: self.volume.join({}, time_steps={"b": 0}))
+
     def test_a_foreign_file_is_opened_as_it_is(self):
         for files in (self.path("input.json"), [self.path("input.json")]):
             self.assertEqual(elvis.open(files).n_elements, self.volume.n_elements)

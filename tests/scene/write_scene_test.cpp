@@ -37,7 +37,8 @@ const std::vector<std::string>& documents() {
     static const std::vector<std::string> list = {
         R"json({"version": 1, "image": {"size": [1024, 768], "background": [1.0, 1.0, 1.0, 1.0]}})json",
         R"json({"version": 1,
-            "volume": {"path": "data/ball.h5", "more_paths": ["data/ball.gf"], "plugin": "org.elvis.native", "options": {"a": [1, 2.5]}, "time_step": 3},
+            "volume": {"path": "data/ball.h5", "more_paths": ["data/ball.gf"], "plugin": "org.elvis.native", "options": {"a": [1, 2.5]}, "time_step": 3,
+                       "joined": [{"name": "b", "path": "data/b.mesh", "more_paths": ["data/b.gf"], "plugin": "org.b", "options": {"c": 1}, "time_step": 2}, {"name": "before", "time_step": 0}]},
             "field": "norm(curl(u))", "precision": "float64",
             "camera": {"type": "orthographic", "eye": [1.0, 2.0, 0.1], "look_at": [0.25, 0.0, 0.0], "up": [0.0, 0.0, 1.0],
                        "field_of_view": 33.3, "height": 4.5, "near": 0.125, "image_shift": [0.5, -0.25]},

@@ -3,7 +3,7 @@
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
-#include <apps/elvis/warp_option.hpp>
+#include <apps/elvis/volume_arguments.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -22,9 +22,7 @@ namespace elvis::commands {
 namespace {
 
 struct ExtractArguments {
-    std::vector<std::string> files;
-    std::string plugin;
-    WarpArguments warp;
+    VolumeArguments volume;
     std::string field, level_field;
     bool is_boundary = false;
     std::vector<std::string> groups;
@@ -173,9 +171,7 @@ void say_extract_doubts(const elvis_mesh_info& info) {
 void run_extract(const ExtractArguments& arguments) {
     check_extract(arguments);
     const context library = library_context();
-    const data volume =
-        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
-               arguments.warp, arguments.time_step);
+    const data volume = open_volume(library, arguments.volume, arguments.time_step);
     const std::vector<MeshColumn> columns = mesh_columns(volume, arguments.values);
     const extracted mesh = mesh_of(library, volume, arguments);
     if (arguments.output.ends_with(".vtp")) {
@@ -196,9 +192,7 @@ void run_extract(const ExtractArguments& arguments) {
 void add_extract(CLI::App& app) {
     auto arguments = std::make_shared<ExtractArguments>();
     CLI::App* command = app.add_subcommand("extract", "Write meshes of isosurfaces, cut planes and boundaries, and contours");
-    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
-        ->required();
-    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    add_volume_arguments(*command, arguments->volume);
     command->add_option("--field", arguments->field, "Field, component or expression of isosurface and contours");
     command->add_option("--isosurface", arguments->isovalue, "The isosurface at this value");
     command->add_option("--isosurface-field", arguments->level_field,
@@ -217,7 +211,6 @@ void add_extract(CLI::App& app) {
         ->add_option("--tolerance", arguments->tolerance,
                      "How far mesh and surface may be from each other, as a share of the diagonal of the bounds; default: 1e-3")
         ->check(CLI::Range(1e-9, 0.5));
-    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command->add_flag("--json", arguments->is_json, "Print the report as JSON");
     command->add_option("-o,--output", arguments->output, "File to write: .vtp, .ply, .stl or .glb")->required();

@@ -1,7 +1,7 @@
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/open_volume.hpp>
-#include <apps/elvis/warp_option.hpp>
+#include <apps/elvis/volume_arguments.hpp>
 
 #include <core/base/error.hpp>
 
@@ -19,9 +19,7 @@ namespace elvis::commands {
 namespace {
 
 struct ExtremaArguments {
-    std::vector<std::string> files;
-    std::string plugin;
-    WarpArguments warp;
+    VolumeArguments volume;
     std::string field;
     std::string device;
     std::uint32_t time_step = 0;
@@ -44,11 +42,9 @@ nlohmann::ordered_json extremum(double value, double bound, bool is_certified, s
 
 void run_extrema(const ExtremaArguments& arguments) {
     const context library = library_context(arguments.device);
-    const data volume =
-        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
-               arguments.warp, arguments.time_step);
+    const data volume = open_volume(library, arguments.volume, arguments.time_step);
     if (volume.info().n_fields == 0 && arguments.field.empty()) {
-        throw Error(arguments.files.front(), "has no fields");
+        throw Error(arguments.volume.files.front(), "has no fields");
     }
     const std::string field = arguments.field.empty() ? volume.field(0).name : arguments.field;
     const elvis_range range = volume.range(field, arguments.time_step);
@@ -72,12 +68,9 @@ void add_extrema(CLI::App& app) {
     auto arguments = std::make_shared<ExtremaArguments>();
     CLI::App* command = app.add_subcommand(
         "extrema", "Print a field's smallest and largest value, where they are, and what certainly holds them");
-    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
-        ->required();
-    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    add_volume_arguments(*command, arguments->volume);
     command->add_option("--field", arguments->field,
                         "Field, component or expression; of a vector its magnitude; default: the first field");
-    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command->add_option("--device", arguments->device, "Device that samples expressions: name or index");
     command->callback([arguments] { run_extrema(*arguments); });

@@ -2,7 +2,7 @@
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
-#include <apps/elvis/warp_option.hpp>
+#include <apps/elvis/volume_arguments.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -19,9 +19,7 @@ namespace elvis::commands {
 namespace {
 
 struct IntegrateArguments {
-    std::vector<std::string> files;
-    std::string plugin;
-    WarpArguments warp;
+    VolumeArguments volume;
     std::string field;
     bool is_boundary = false;
     std::vector<std::string> groups;
@@ -102,9 +100,7 @@ void run_integrate(const IntegrateArguments& arguments) {
         throw UsageError("--flux", "needs --field, a vector");
     }
     const context library = library_context();
-    const data volume =
-        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
-               arguments.warp, arguments.time_step);
+    const data volume = open_volume(library, arguments.volume, arguments.time_step);
     const elvis_integral integral = integral_of(volume, arguments);
     const nlohmann::ordered_json answer = {{"value", integral.value},
                                            {"error", integral.error},
@@ -124,9 +120,7 @@ void add_integrate(CLI::App& app) {
     auto arguments = std::make_shared<IntegrateArguments>();
     CLI::App* command =
         app.add_subcommand("integrate", "Print integrals over a volume, its boundary, planes or isosurfaces, and fluxes");
-    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
-        ->required();
-    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    add_volume_arguments(*command, arguments->volume);
     command->add_option("--field", arguments->field, "Field, component or expression to integrate; default: the number 1");
     command
         ->add_option("--boundary", arguments->groups,
@@ -141,7 +135,6 @@ void add_integrate(CLI::App& app) {
         "--flux", arguments->is_flux,
         "The field is a vector, of which the component along the normal is integrated: out of the volume, along (a,b,c), or "
         "to where the isosurface's field is larger");
-    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command
         ->add_option("--tolerance", arguments->tolerance,

@@ -7,7 +7,7 @@
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
 #include <apps/elvis/render/output_endings.hpp>
-#include <apps/elvis/warp_option.hpp>
+#include <apps/elvis/volume_arguments.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -22,9 +22,7 @@ namespace elvis::commands {
 namespace {
 
 struct SampleArguments {
-    std::vector<std::string> files;
-    std::string plugin;
-    WarpArguments warp;
+    VolumeArguments volume;
     std::vector<std::string> line;
     std::string polyline, points, grid, box, plane, size, output, device;
     std::size_t count = 1000;
@@ -118,9 +116,7 @@ void run_sample(const SampleArguments& arguments) {
     need_one_kind(arguments);
     need_fitting_ending(arguments);
     const context library = library_context(arguments.device);
-    const data volume =
-        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
-               arguments.warp, arguments.wishes.time_step);
+    const data volume = open_volume(library, arguments.volume, arguments.wishes.time_step);
     TaskControl control;
     SampleTable table;
     {
@@ -148,9 +144,7 @@ void add_sample(CLI::App& app) {
     auto arguments = std::make_shared<SampleArguments>();
     CLI::App* command =
         app.add_subcommand("sample", "Write fields along lines, at points, on planes and grids, in double precision");
-    command->add_option("volume", arguments->files, "Volume, whatever its format (geometry first, then field files)")
-        ->required();
-    command->add_option("--plugin", arguments->plugin, "Plugin by id; default: the one surest of the file");
+    add_volume_arguments(*command, arguments->volume);
     command->add_option("--line", arguments->line, "From x,y,z to x,y,z")->expected(2);
     command->add_option("--polyline", arguments->polyline,
                         "Through the points of a file: three numbers a line; # starts a comment");
@@ -165,7 +159,6 @@ void add_sample(CLI::App& app) {
     command->add_option("--field", arguments->wishes.fields, "Field or expression (repeatable); default: all fields")
         ->allow_extra_args(false);
     command->add_flag("--gradients", arguments->wishes.with_gradients, "World gradients, too");
-    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->wishes.time_step, "Time step, counted from 0");
     command->add_option("--device", arguments->device, "Device for plugins that do not evaluate on the CPU: name or index");
     command

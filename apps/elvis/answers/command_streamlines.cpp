@@ -4,7 +4,7 @@
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
-#include <apps/elvis/warp_option.hpp>
+#include <apps/elvis/volume_arguments.hpp>
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -22,9 +22,7 @@ namespace elvis::commands {
 namespace {
 
 struct StreamlinesArguments {
-    std::vector<std::string> files;
-    std::string plugin;
-    WarpArguments warp;
+    VolumeArguments volume;
     std::string field;
     std::vector<std::string> line;
     std::string seeds;
@@ -118,9 +116,7 @@ void run_streamlines(const StreamlinesArguments& arguments) {
     }
     const std::vector<double> seeds = seeds_of(arguments);
     const context library = library_context();
-    const data volume =
-        warped(open_watched([&](const task& watch) { return library.open(arguments.files, arguments.plugin, {}, watch); }),
-               arguments.warp, arguments.time_step);
+    const data volume = open_volume(library, arguments.volume, arguments.time_step);
     const std::vector<LineColumn> columns = columns_of(volume, arguments.fields);
     const traced lines = traced_lines(volume, arguments, seeds);
     is_csv ? write_line_csv(lines, columns, arguments.output) : write_vtp(lines, columns, arguments.output);
@@ -144,8 +140,7 @@ namespace {
 
 /** What both commands have. */
 void add_common(CLI::App& command, StreamlinesArguments& arguments) {
-    command.add_option("volume", arguments.files, "Volume, whatever its format (geometry first, then field files)")->required();
-    command.add_option("--plugin", arguments.plugin, "Plugin by id; default: the one surest of the file");
+    add_volume_arguments(command, arguments.volume);
     command.add_option("--field", arguments.field, "The vector field or expression")->required();
     command.add_option("--line", arguments.line, "x,y,z x,y,z: seeds evenly along a line")->expected(2);
     command.add_option("--count", arguments.count, "Seeds along the line; default: 20")->check(CLI::Range(1, 1000000));
@@ -169,7 +164,6 @@ void add_streamlines(CLI::App& app) {
     add_common(*command, *arguments);
     command->add_option("--length", arguments->length, "Of a line in each direction; default: ten times the diagonal")
         ->check(CLI::PositiveNumber);
-    add_warp(*command, arguments->warp);
     command->add_option("--time-step", arguments->time_step, "Time step, counted from 0");
     command->callback([arguments] { run_streamlines(*arguments); });
 }

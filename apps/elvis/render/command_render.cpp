@@ -173,6 +173,7 @@ void add_render(CLI::App& app, DivisibleTeam* team) {
     a->team = team;
     add_surfaces(*command, *a);
     add_volume(*command, *a);
+    add_join(*command, a->joins);
     add_warp(*command, a->warp);
     command->add_option("--streamlines", a->streamlines,
                         "Tubes along this vector field, from a grid of points; a scene says more about them");

@@ -1,6 +1,7 @@
 #include "native_volume.hpp"
 
 #include <core/base/error.hpp>
+#include <core/session/joined.hpp>
 #include <core/session/warped.hpp>
 
 #include <optional>
@@ -12,10 +13,13 @@ namespace elvis::commands {
 
 namespace {
 
-VolumeFile find_file(const Scene& scene, const PluginRegistry& plugins, Team& team, const TaskControl& control) {
-    std::vector<std::string> files{scene.volume};
-    files.insert(files.end(), scene.more_files.begin(), scene.more_files.end());
-    const auto find = [&] { return find_volume(plugins, files, scene.plugin, scene.plugin_options, control); };
+/** `said`: the Scene, or the SceneJoin, whose file is `path`. */
+template <class Files>
+VolumeFile find_file(const std::string& path, const Files& said, const PluginRegistry& plugins, Team& team,
+                     const TaskControl& control) {
+    std::vector<std::string> files{path};
+    files.insert(files.end(), said.more_files.begin(), said.more_files.end());
+    const auto find = [&] { return find_volume(plugins, files, said.plugin, said.plugin_options, control); };
     // What has to be converted, the first converts; the others then find it in the cache.
     std::optional<VolumeFile> file;
     if (team.is_first()) {
@@ -27,8 +31,8 @@ VolumeFile find_file(const Scene& scene, const PluginRegistry& plugins, Team& te
         file = find();
     }
     if (file->plugin->id() != native_plugin_id) {
-        throw Error(scene.volume, "only native volumes, and what is converted to them, are drawn in parts; this is one of " +
-                                      file->plugin->id() + " (elvis convert makes native volumes)");
+        throw Error(path, "only native volumes, and what is converted to them, are drawn in parts; this is one of " +
+                              file->plugin->id() + " (elvis convert makes native volumes)");
     }
     return *file;
 }
@@ -36,15 +40,24 @@ VolumeFile find_file(const Scene& scene, const PluginRegistry& plugins, Team& te
 } // namespace
 
 NativeVolume open_native(const Scene& scene, const PluginRegistry& plugins, Team& team, const TaskControl& control) {
-    VolumeFile file = find_file(scene, plugins, team, control);
-    std::shared_ptr<const native::VolumeSource> source = native_source(file.path);
-    if (!scene.warp) {
-        RuntimeVolume whole = file.open(&control);
-        return {std::move(file), std::move(source), std::move(whole)};
+    std::vector<VolumeFile> files{find_file(scene.volume, scene, plugins, team, control)};
+    const std::string path = files.front().path;
+    std::shared_ptr<const native::VolumeSource> source = native_source(path);
+    std::vector<native::Joined> joined;
+    for (const SceneJoin& join : scene.joined) {
+        if (!join.path.empty()) {
+            files.push_back(find_file(join.path, join, plugins, team, control));
+        }
+        joined.push_back({join.name, join.path.empty() ? source : native_source(files.back().path), join.time_step});
     }
-    auto displaced = warped_source(std::move(source), *scene.warp, scene.time_step, file.path);
-    RuntimeVolume whole = serve_native(displaced, file.path, &control);
-    return {std::move(file), std::move(displaced), std::move(whole)};
+    if (!joined.empty()) {
+        source = joined_source(std::move(source), std::move(joined), path);
+    }
+    if (scene.warp) {
+        source = warped_source(std::move(source), *scene.warp, scene.time_step, path);
+    }
+    RuntimeVolume whole = serve_native(source, path, &control);
+    return {std::move(files), std::move(source), std::move(whole)};
 }
 
 } // namespace elvis::commands

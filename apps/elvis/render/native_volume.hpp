@@ -13,12 +13,14 @@
 #include <elvis/native/volume_source.hpp>
 
 #include <memory>
+#include <vector>
 
 namespace elvis::commands {
 
 /** What a volume's numbers come from, and the volume that serves them. */
 struct NativeVolume {
-    VolumeFile file;
+    /** Its own, then those joined to it: they hold temporary files. */
+    std::vector<VolumeFile> files;
     std::shared_ptr<const native::VolumeSource> source;
     RuntimeVolume whole;
 };

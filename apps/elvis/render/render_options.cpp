@@ -311,6 +311,23 @@ std::array<unsigned, 2> size_of(const std::string& text) {
     return {width, height};
 }
 
+void apply_joins(const std::vector<std::string>& joins, Document& scene) {
+    json list = json::array();
+    for (const std::string& text : joins) {
+        const JoinArgument join = parse_join(text);
+        list.push_back({{"name", join.name}});
+        if (!join.file.empty()) {
+            list.back()["path"] = join.file;
+        }
+        if (join.time_step) {
+            list.back()["time_step"] = *join.time_step;
+        }
+    }
+    if (!list.empty()) {
+        scene.set("/volume/joined", list);
+    }
+}
+
 void apply_warp(const WarpArguments& warp, Document& scene) {
     if (warp.field.empty()) {
         return;
@@ -359,6 +376,7 @@ void apply_options(const RenderArguments& arguments, scene& shown) {
     if (!arguments.threshold.empty()) {
         document.set("/threshold", arguments.threshold);
     }
+    apply_joins(arguments.joins, document);
     apply_warp(arguments.warp, document);
     apply_surfaces(arguments, document);
     apply_lines(arguments, document);

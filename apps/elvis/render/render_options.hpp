@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <apps/elvis/warp_option.hpp>
+#include <apps/elvis/volume_arguments.hpp>
 
 #include <core/base/team.hpp>
 
@@ -27,6 +27,7 @@ struct RenderArguments {
     /** What is drawn is a scene file, not a volume. */
     bool is_scene = false;
     std::string output;
+    std::vector<std::string> joins;
     WarpArguments warp;
     std::string time_steps;
     int phases = 0;

@@ -35,6 +35,7 @@ class Volume:
     def warp(
         self, field: str, factor: float, imaginary: str | None, phase: float, time_step: int, progress: Progress
     ) -> Volume: ...
+    def join(self, others: list[tuple[str, Volume, int | None]], progress: Progress) -> Volume: ...
     def extract(
         self, domain: int, groups: list[str], plane: list[float], level_field: str | None, isovalue: float, contour_field: str | None,
         contours: list[float], fields: list[str], tolerance: float, time_step: int, progress: Progress

@@ -203,6 +203,20 @@ class Volume:
         with progress_for(progress) as report:
             return Volume(self._handle.warp(field, factor, imaginary, phase, time_step, report), self.path, {})
 
+    def join(self, others: Mapping[str, "Volume"], *, time_steps: Mapping[str, int] | None = None, progress: Progress = True) -> "Volume":
+        """The volume with the fields of others beside its own, as NAME.FIELD: `v.join({"b": w})` has p and b.p, and p - b.p is exact.
+
+        others: by name; they have the same elements. One may be this volume itself, at another time step. time_steps: by name, the
+        step that is shown at each time; without, the same one, or the only one there is.
+        """
+        steps = dict(time_steps or {})
+        unknown = sorted(set(steps) - set(others))
+        if unknown:
+            raise ValueError(f"time_steps: {unknown[0]!r} is not among those joined")
+        wanted = [(name, other._handle, steps.get(name)) for name, other in others.items()]
+        with progress_for(progress) as report:
+            return Volume(self._handle.join(wanted, report), self.path, {})
+
     def walk_line(self, start: Sequence[float], end: Sequence[float], fields: str | Sequence[str] | None = None, *, time_step: int = 0,
                   progress: Progress = True) -> list[Break]:
         """Where the straight line from start to end enters and leaves elements, in order, with the fields as seen from either side.

@@ -43,6 +43,16 @@ SceneJson files_json(const std::string& file, const std::vector<std::string>& mo
     return json;
 }
 
+SceneJson join_json(const SceneJoin& join, const std::string& path) {
+    SceneJson json = SceneJson::object();
+    json["name"] = join.name;
+    if (!join.path.empty()) {
+        json.update(files_json(join.path, join.more_files, join.plugin, join.plugin_options, path));
+    }
+    set(json, "time_step", join.time_step);
+    return json;
+}
+
 SceneJson further_volume_json(const SceneVolume& volume, const std::string& path) {
     SceneJson json = SceneJson::object();
     if (!volume.path.empty()) {
@@ -58,6 +68,9 @@ SceneJson volume_json(const Scene& scene, const std::string& path) {
     SceneJson json = files_json(scene.volume, scene.more_files, scene.plugin, scene.plugin_options, path);
     if (scene.time_step != 0) {
         json["time_step"] = scene.time_step;
+    }
+    for (const SceneJoin& join : scene.joined) {
+        json["joined"].push_back(join_json(join, path));
     }
     return json;
 }

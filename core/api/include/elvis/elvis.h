@@ -228,6 +228,29 @@ typedef struct elvis_warp {
 ELVIS_EXPORT elvis_result elvis_data_warp(elvis_data* data, const elvis_warp* warp, const elvis_task* task,
                                           elvis_data** warped);
 
+/** The time step that is shown, or the only one there is. */
+#define ELVIS_SAME_TIME_STEP 0xffffffffu
+
+/** Data whose fields are joined. */
+typedef struct elvis_join {
+    uint32_t struct_size;
+    /** At each time step this one is shown; or ELVIS_SAME_TIME_STEP. */
+    uint32_t time_step;
+    /** Their field p is NAME.p: letters, digits and _, no digit first. */
+    elvis_string name;
+    /** May be the data that they are joined to: at another time step. */
+    elvis_data* data;
+} elvis_join;
+
+/**
+ * Data with the fields of others beside their own, as new data that do not change with these: expressions such as p - b.p are
+ * exact, and so are their integrals, extrema and isosurfaces. The elements must be the same, in the same order: each mapping
+ * may differ by 1e-10 of the largest coordinate. All geometries are read for that. Only of native volumes, of what is converted
+ * to them, and of arrays. `joins`: structs that follow each other.
+ */
+ELVIS_EXPORT elvis_result elvis_data_join(elvis_data* data, const elvis_join* joins, uint32_t n_joins, const elvis_task* task,
+                                          elvis_data** joined);
+
 ELVIS_EXPORT void elvis_data_release(elvis_data* data);
 
 typedef struct elvis_data_info {

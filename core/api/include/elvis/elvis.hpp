@@ -336,6 +336,25 @@ public:
         check(elvis_data_warp(get(), &how, &c_watch, &displaced));
         return {m_context, displaced};
     }
+    /** With the fields of others beside their own: see elvis_data_join. */
+    struct joined {
+        std::string name;
+        const data* from;
+        std::uint32_t time_step = ELVIS_SAME_TIME_STEP;
+    };
+    data join(const std::vector<joined>& others, const task& watch = {}) const {
+        std::vector<elvis_join> joins;
+        for (const joined& other : others) {
+            joins.push_back(detail::sized<elvis_join>());
+            joins.back().time_step = other.time_step;
+            joins.back().name = other.name.c_str();
+            joins.back().data = other.from->get();
+        }
+        elvis_data* together = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_join(get(), joins.data(), static_cast<std::uint32_t>(joins.size()), &c_watch, &together));
+        return {m_context, together};
+    }
     elvis_range range(const std::string& field, std::uint32_t time_step = 0) const {
         auto result = detail::sized<elvis_range>();
         check(elvis_data_get_range(get(), field.c_str(), time_step, &result));
