@@ -174,7 +174,8 @@ std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library)
     return plugin;
 }
 
-std::shared_ptr<const Plugin> Plugin::of_program(const elvis_runtime& runtime, std::string id) {
+std::shared_ptr<const Plugin> Plugin::of_program(const elvis_runtime& runtime, std::string id,
+                                                 const elvis_apex_bounds* apex_bounds) {
     std::shared_ptr<Plugin> plugin(new Plugin);
     Impl& impl = *plugin->m_impl;
     impl.abi_version = ELVIS_ABI_VERSION;
@@ -183,6 +184,9 @@ std::shared_ptr<const Plugin> Plugin::of_program(const elvis_runtime& runtime, s
     impl.runtime = copy_known_part(runtime);
     if (const char* missing = missing_volume_function(*impl.runtime)) {
         throw Error(impl.id, std::string("the table ") + ELVIS_RUNTIME_INTERFACE + " lacks the required function " + missing);
+    }
+    if (apex_bounds != nullptr) {
+        impl.apex_bounds = copy_known_part(*apex_bounds);
     }
     return plugin;
 }

@@ -34,7 +34,8 @@ public:
      * What a program gives to show its own data: a table without probe, open and close, which must stay as long as this. `id`
      * is for messages. Throws Error for a table that lacks functions.
      */
-    static std::shared_ptr<const Plugin> of_program(const elvis_runtime& runtime, std::string id);
+    static std::shared_ptr<const Plugin> of_program(const elvis_runtime& runtime, std::string id,
+                                                    const elvis_apex_bounds* apex_bounds = nullptr);
     /** The native volume's, of the library that this program is linked to: it serves volumes in memory. */
     static std::shared_ptr<const Plugin> of_native(std::string id);
     /** A mesh in memory, as its converter gives it, without probe and open. */

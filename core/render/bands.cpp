@@ -76,6 +76,33 @@ void put(const std::vector<T>& band, const Rows& rows, const FrameRequest& whole
     }
 }
 
+void put_pixels(const Frame& band, const Rows& rows, const FrameRequest& request, Frame& pixels) {
+    const std::size_t width = request.width;
+    put(band.color, rows, request, 4 * width, pixels.color);
+    put(band.value, rows, request, width, pixels.value);
+    put(band.depth, rows, request, width, pixels.depth);
+    put(band.element, rows, request, width, pixels.element);
+    put(band.normal, rows, request, 3 * width, pixels.normal);
+    put(band.flags, rows, request, width, pixels.flags);
+}
+
+void take_pixels(Frame pixels, Frame& whole) {
+    whole.color = std::move(pixels.color);
+    whole.value = std::move(pixels.value);
+    whole.depth = std::move(pixels.depth);
+    whole.element = std::move(pixels.element);
+    whole.normal = std::move(pixels.normal);
+    whole.flags = std::move(pixels.flags);
+}
+
+std::vector<Rows> all_bands(const FrameRequest& request, std::uint32_t n_rows) {
+    std::vector<Rows> bands;
+    for (std::uint32_t first = 0; first < request.height; first += n_rows) {
+        bands.push_back({first, std::min(request.height, first + n_rows)});
+    }
+    return bands;
+}
+
 /** What is not of the volume but of pixels, or of work. */
 constexpr std::uint64_t FrameCounts::*added_counts[] = {&FrameCounts::hit_pixels,
                                                         &FrameCounts::field_evaluations,
@@ -224,21 +251,39 @@ Frame render_in_bands(std::span<Renderer* const> renderers, const FrameRequest& 
         return renderers.front()->render(request, control);
     }
     Frame pixels;
-    Frame whole = render_bands(renderers, request, n_rows, control, [&](const Frame& band, const Rows& rows) {
-        const std::size_t width = request.width;
-        put(band.color, rows, request, 4 * width, pixels.color);
-        put(band.value, rows, request, width, pixels.value);
-        put(band.depth, rows, request, width, pixels.depth);
-        put(band.element, rows, request, width, pixels.element);
-        put(band.normal, rows, request, 3 * width, pixels.normal);
-        put(band.flags, rows, request, width, pixels.flags);
-    });
-    whole.color = std::move(pixels.color);
-    whole.value = std::move(pixels.value);
-    whole.depth = std::move(pixels.depth);
-    whole.element = std::move(pixels.element);
-    whole.normal = std::move(pixels.normal);
-    whole.flags = std::move(pixels.flags);
+    Frame whole = render_bands(renderers, request, n_rows, control,
+                               [&](const Frame& band, const Rows& rows) { put_pixels(band, rows, request, pixels); });
+    take_pixels(std::move(pixels), whole);
+    return whole;
+}
+
+std::vector<FrameRequest> bands_of(const FrameRequest& request, std::uint32_t n_rows) {
+    std::vector<FrameRequest> bands;
+    for (const Rows& rows : all_bands(request, n_rows)) {
+        bands.push_back(n_rows < request.height ? request_for(request, drawn_for(rows, request)) : request);
+    }
+    return bands;
+}
+
+Frame render_band_by_band(const FrameRequest& request, std::uint32_t n_rows,
+                          const std::function<Frame(const FrameRequest& band)>& draw) {
+    if (n_rows >= request.height) {
+        return draw(request);
+    }
+    Frame pixels, whole;
+    for (const Rows& rows : all_bands(request, n_rows)) {
+        const Rows drawn = drawn_for(rows, request);
+        Frame band = draw(request_for(request, drawn));
+        crop(band, drawn, rows);
+        put_pixels(band, rows, request, pixels);
+        add_part(band, whole);
+        whole.render_milliseconds += band.render_milliseconds;
+        whole.device_milliseconds += band.device_milliseconds;
+    }
+    whole.width = request.width;
+    whole.height = request.height;
+    whole.counts.pixels = std::uint64_t{request.width} * request.height;
+    take_pixels(std::move(pixels), whole);
     return whole;
 }
 

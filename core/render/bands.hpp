@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
 namespace elvis {
 
@@ -35,5 +36,12 @@ std::uint32_t rows_a_band(std::span<Renderer* const> renderers, const FrameReque
 
 /** The whole picture in such bands; by the one renderer as it is if there is one, and it fits. */
 Frame render_in_bands(std::span<Renderer* const> renderers, const FrameRequest& request, const TaskControl* control = nullptr);
+
+/** What is asked for in such bands, a multiple of part_rows each, with the rows around them that lines look at. */
+std::vector<FrameRequest> bands_of(const FrameRequest& request, std::uint32_t n_rows);
+
+/** The picture in these bands, one after the other, each drawn by `draw`: to the bit what one renderer draws at once. */
+Frame render_band_by_band(const FrameRequest& request, std::uint32_t n_rows,
+                          const std::function<Frame(const FrameRequest& band)>& draw);
 
 } // namespace elvis

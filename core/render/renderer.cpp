@@ -85,10 +85,14 @@ struct Renderer::Impl {
     std::uint64_t n_overlapping = 0;
 
     Impl(const Device& on, const RuntimeVolume& of, Precision with, const TaskControl* task,
-         const std::optional<std::array<double, 6>>& bounds_of_whole)
+         const std::optional<std::array<double, 6>>& bounds_of_whole, bool expects_overlaps)
         : device(on), volume(of), data(on, of, with, task, bounds_of_whole), ranges(on, of, data), fields(of, data, ranges),
           passes(on, of, data, ranges, task), picture(on, with) {
-        find_overlaps(task);
+        if (expects_overlaps) {
+            data.expect_overlaps();
+        } else {
+            find_overlaps(task);
+        }
         times.hierarchy_milliseconds = data.hierarchy_milliseconds();
     }
 
@@ -166,8 +170,8 @@ void Renderer::Impl::draw_volume(const FrameRequest& request, Frame& frame) {
 }
 
 Renderer::Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control,
-                   const std::optional<std::array<double, 6>>& bounds_of_whole) {
-    m_impl = std::make_unique<Impl>(device, volume, precision, control, bounds_of_whole);
+                   const std::optional<std::array<double, 6>>& bounds_of_whole, bool expects_overlaps) {
+    m_impl = std::make_unique<Impl>(device, volume, precision, control, bounds_of_whole, expects_overlaps);
 }
 
 Renderer::~Renderer() = default;

@@ -36,9 +36,13 @@ struct RendererMemory {
  */
 class Renderer {
 public:
-    /** `bounds_of_whole`: where the volume is a part of a larger one, which pictures are to be like those of. */
+    /**
+     * `bounds_of_whole`: where the volume is a part of a larger one, which pictures are to be like those of.
+     * `expects_overlaps`: it is not looked for whether elements overlap; cut surfaces tell at each pixel. Where they do not,
+     * pictures are the same, to the bit.
+     */
     Renderer(const Device& device, const RuntimeVolume& volume, Precision precision, const TaskControl* control = nullptr,
-             const std::optional<std::array<double, 6>>& bounds_of_whole = {});
+             const std::optional<std::array<double, 6>>& bounds_of_whole = {}, bool expects_overlaps = false);
     ~Renderer();
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;

@@ -4,6 +4,7 @@
 #include <core/base/memory.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
+#include <core/vulkan/memory_limit.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -21,6 +22,12 @@ Error too_large(const Device::Impl& device, std::uint64_t bytes, const char* pla
                                      mebibytes(device.allocated_bytes) + " are in use)");
 }
 
+void raise(std::atomic<std::uint64_t>& most, std::uint64_t bytes) {
+    std::uint64_t known = most;
+    while (known < bytes && !most.compare_exchange_weak(known, bytes)) {
+    }
+}
+
 /** Below this, asking how much memory there is takes longer than it is worth. */
 constexpr std::uint64_t large_bytes = 64u << 20u;
 
@@ -36,6 +43,9 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
     // A driver for CPUs promises any amount, and the system ends the process once that is used.
     if (impl.summary.type == "cpu" && bytes >= large_bytes && bytes > available_bytes()) {
         throw too_large(impl, bytes, place, "the machine has " + mebibytes(available_bytes()) + " left");
+    }
+    if (impl.most_bytes != 0 && impl.allocated_bytes + bytes > impl.most_bytes) {
+        throw too_large(impl, bytes, place, "the budget for its memory is " + mebibytes(impl.most_bytes));
     }
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
@@ -68,7 +78,7 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
             throw too_large(impl, bytes, place, vulkan_result_text(result));
         }
         m_allocated = needs.size;
-        impl.allocated_bytes += m_allocated;
+        raise(impl.peak_bytes, impl.allocated_bytes += m_allocated);
         check_vulkan(vkBindBufferMemory(impl.device, m_buffer, m_memory, 0), impl.place(), "binding a buffer");
         if (map) {
             void* mapped = nullptr;
@@ -222,5 +232,13 @@ void Allocation::read_through_staging(std::span<const Read> reads) {
 void Allocation::fill(std::uint32_t word) const {
     m_device->record([&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, m_buffer, 0, VK_WHOLE_SIZE, word); });
 }
+
+void limit_memory(const Device& device, std::uint64_t bytes) {
+    Device::Impl& impl = device.impl();
+    impl.most_bytes = bytes;
+    impl.peak_bytes = impl.allocated_bytes.load();
+}
+
+std::uint64_t peak_allocated_bytes(const Device& device) { return device.impl().peak_bytes; }
 
 } // namespace elvis

@@ -73,6 +73,8 @@ struct Device::Impl {
     PipelinePool kept_pipelines;
     Background background{std::max(1u, std::thread::hardware_concurrency())};
     std::atomic<std::uint64_t> allocated_bytes{0};
+    /** memory_limit.hpp; no limit is 0. */
+    std::atomic<std::uint64_t> most_bytes{0}, peak_bytes{0};
     std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0};
 
     /** Guards the staging buffer; taken before the queue's. */

@@ -49,6 +49,7 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
+#define CORE_ON_PLANE 1
 #include "cut_surface/locate.glsl"
 
 #if CORE_LINES

@@ -15,6 +15,7 @@ layout(push_constant) uniform core_constants {
 };
 
 #define CORE_LISTED_BINDING 2
+#define CORE_ON_PLANE 1
 #include "tiles/list_nodes.glsl"
 #include "cut_surface/cut_horizon.glsl"
 

@@ -1,13 +1,21 @@
 // One element that may hold a point of a cut surface (cut_surface/locate.glsl, cut_surface/open_points.comp): where Newton's method starts
 // in it, and what its solution says.
 //
-// The kernel brings picture/show.glsl and the buffers core_nodes and core_elements (element/linearization.glsl).
+// The kernel brings picture/show.glsl and the buffers core_nodes and core_elements (element/linearization.glsl), and
+// CORE_ON_PLANE: 1 for a cut plane, 0 for other surfaces.
 
 #include "element/newton.glsl"
 #include "tiles/hierarchy.glsl"
 #include "element/inside.glsl"
 #include "element/linearization.glsl"
 #include "cut_surface/reach.glsl"
+
+#if CORE_ON_PLANE
+#include "cut_surface/meets_plane.glsl"
+#define core_may_hold(node) core_meets_plane(node)
+#else
+#define core_may_hold(node) true
+#endif
 
 struct core_side {
     bool is_inside, is_on_face;
@@ -127,6 +135,16 @@ core_side core_judge_candidate(uint element, core_element_candidate candidate, c
     }
 #endif
     return side;
+}
+
+// An element that holds the point by more than rounding goes before all that hold it within rounding, whichever was found first.
+void core_forget_candidates(bool is_forgotten, inout core_location found) {
+    found.element = is_forgotten ? CORE_NO_ELEMENT : found.element;
+    found.number = is_forgotten ? 0xffffffffu : found.number;
+    found.key = is_forgotten ? 2u : found.key;
+    found.n_candidates = is_forgotten ? 0u : found.n_candidates;
+    found.other = is_forgotten ? CORE_NO_ELEMENT : found.other;
+    found.is_ambiguous = found.is_ambiguous && !is_forgotten;
 }
 
 // Takes the candidate if it goes before what was found; the other one is kept for comparison.

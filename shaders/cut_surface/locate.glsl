@@ -2,9 +2,10 @@
 //
 // Every element within rounding of the point is a candidate: neighbours share a face in exact arithmetic only, and must leave no
 // gap. Among candidates the viewer's side decides (key 0: a small step towards the viewer stays in the element), then the lowest
-// number. So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at. A point
-// that is inside by more than rounding is in no other element of a valid mesh: there the search ends. Of a mesh in which elements overlap
-// (CORE_OVERLAPS) it goes on, and counts the elements that hold the point.
+// number. So a plane that lies in element faces shows the elements in front of it, and all candidates have to be looked at. An element
+// that holds the point by more than rounding goes before all of these, and is the only one of a valid mesh: there the search ends. Of a
+// mesh in which elements may overlap (CORE_OVERLAPS) it goes on, and counts the elements that hold the point; where it is one, the answer
+// is the same.
 //
 // Pixels are visited column by column, and the next one usually lies in the same element, a small step away: it is tried first,
 // from the solution here carried on with the Jacobian here, which leaves one Newton step to do.
@@ -64,6 +65,8 @@ core_element_candidate core_tracked_candidate(core_cut_point point, bool is_want
 // What is left of the list, and nodes that wait.
 struct core_descent {
     uint n_entries, entry, stack_size;
+    // Found to hold the point by carrying on from the last pixel: not to be looked at again.
+    uint passed_over;
 };
 uint core_stack[CORE_STACK_SIZE];
 
@@ -77,8 +80,8 @@ void core_next_element(core_cut_point point, vec3 in_hierarchy, float box_tolera
     descent.stack_size -= is_popped ? 1u : 0u;
     descent.entry += is_popped ? 0u : 1u;
     const core_node node = core_fetch_node(index);
-    const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
-    if (is_touched && node.is_leaf) {
+    const bool is_touched = core_contains(node, in_hierarchy, box_tolerance) && core_may_hold(node);
+    if (is_touched && node.is_leaf && node.child != descent.passed_over) {
         candidate.target = core_target_in(node.child, point);
         candidate.state =
             core_newton_start(node.child, elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z));
@@ -92,17 +95,17 @@ void core_next_element(core_cut_point point, vec3 in_hierarchy, float box_tolera
     }
 }
 
-// `is_alone`: the candidate holds the point, and no other element does.
-void core_keep_track(bool is_done, bool is_alone, core_element_candidate candidate, core_inverse inverse, inout core_track track) {
-    track.element = is_done ? (is_alone ? candidate.element : CORE_NO_ELEMENT) : track.element;
-    track.x = is_alone ? candidate.state.x : track.x;
-    track.y = is_alone ? candidate.state.y : track.y;
-    track.z = is_alone ? candidate.state.z : track.z;
-    track.target = is_alone ? elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z) : track.target;
-    track.curvature = is_alone ? candidate.state.curvature : track.curvature;
-    track.row0 = is_alone ? inverse.row0 : track.row0;
-    track.row1 = is_alone ? inverse.row1 : track.row1;
-    track.row2 = is_alone ? inverse.row2 : track.row2;
+// `is_kept`: the candidate holds the point by more than rounding, and is what is shown.
+void core_keep_track(bool is_kept, core_element_candidate candidate, core_inverse inverse, inout core_track track) {
+    track.element = is_kept ? candidate.element : track.element;
+    track.x = is_kept ? candidate.state.x : track.x;
+    track.y = is_kept ? candidate.state.y : track.y;
+    track.z = is_kept ? candidate.state.z : track.z;
+    track.target = is_kept ? elvis_vec3(candidate.target.x, candidate.target.y, candidate.target.z) : track.target;
+    track.curvature = is_kept ? candidate.state.curvature : track.curvature;
+    track.row0 = is_kept ? inverse.row0 : track.row0;
+    track.row1 = is_kept ? inverse.row1 : track.row1;
+    track.row2 = is_kept ? inverse.row2 : track.row2;
 }
 
 // A step of Newton's method in the candidate.
@@ -129,13 +132,17 @@ void core_step_in_candidate(core_cut_point point, inout core_element_candidate c
                               (status == CORE_NEWTON_CONVERGED && excess > most);
     const bool is_open = is_active && !candidate.is_tracked && is_dismissed && !candidate.state.is_certain;
     found.n_open += is_open ? 1u : 0u;
-    found.other_open_element = is_open ? found.open_element : found.other_open_element;
-    found.open_element = is_open ? candidate.element : found.open_element;
-    const bool is_accepted = side.is_inside && (is_alone || !candidate.is_tracked);
+    // The two first ones, in whatever order they are met.
+    found.other_open_element =
+        is_open ? min(found.other_open_element, max(found.open_element, candidate.element)) : found.other_open_element;
+    found.open_element = is_open ? min(found.open_element, candidate.element) : found.open_element;
+    const bool is_accepted = side.is_inside && (is_held || (!candidate.is_tracked && found.n_holders == 0u));
+    core_forget_candidates(is_held && found.n_holders == 0u, found);
     found.n_holders += is_held ? 1u : 0u;
     core_take_candidate(is_accepted, candidate, elvis_fetch_core_elements(element, 0u), side, found);
     const bool is_done = status != CORE_NEWTON_RUNNING;
-    core_keep_track(is_done, is_alone, candidate, inverse, track);
+    core_keep_track(is_held && found.element == candidate.element, candidate, inverse, track);
+    descent.passed_over = is_held && candidate.is_tracked ? candidate.element : descent.passed_over;
     candidate.is_tracked = candidate.is_tracked && !is_done;
     candidate.element = is_done ? CORE_NO_ELEMENT : candidate.element;
     descent.entry = is_alone ? descent.n_entries : descent.entry;
@@ -146,8 +153,9 @@ core_location core_locate(core_cut_point point, uint n_entries, inout core_track
     const vec3 in_hierarchy = vec3(point.position + core_reference_in_hierarchy.xyz);
     const float box_tolerance = core_box_tolerance(point, in_hierarchy);
     core_location found = core_nothing_found();
-    core_descent descent = core_descent(n_entries, 0u, 0u);
+    core_descent descent = core_descent(n_entries, 0u, 0u, CORE_NO_ELEMENT);
     core_element_candidate candidate = core_tracked_candidate(point, n_entries > 0u, track);
+    track.element = n_entries > 0u ? CORE_NO_ELEMENT : track.element;
     uint work = 0u;
     while ((candidate.element != CORE_NO_ELEMENT || core_has_more(descent)) && work < CORE_WORK_LIMIT) {
         work += 1u;

@@ -62,7 +62,7 @@ uint core_next_around(vec3 in_hierarchy, float box_tolerance, inout uint stack_s
         stack_size -= 1u;
         search.work += 1u;
         const core_node node = core_fetch_node(core_stack[CORE_FIRST_NODE + stack_size]);
-        const bool is_touched = core_contains(node, in_hierarchy, box_tolerance);
+        const bool is_touched = core_contains(node, in_hierarchy, box_tolerance) && core_may_hold(node);
         if (is_touched && !node.is_leaf) {
             core_stack[CORE_FIRST_NODE + stack_size] = node.child + 1u;
             core_stack[CORE_FIRST_NODE + stack_size + 1u] = node.child;

@@ -37,6 +37,7 @@ uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
 #include "arithmetic/count.glsl"
 #include "picture/show.glsl"
 #include "picture/distrust_column.glsl"
+#define CORE_ON_PLANE 0
 #include "cut_surface/locate.glsl"
 
 // The column's next pixel with a crossing of this round, from a row on.

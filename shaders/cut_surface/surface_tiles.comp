@@ -18,6 +18,7 @@ layout(push_constant) uniform core_constants {
 };
 
 #define CORE_LISTED_BINDING 2
+#define CORE_ON_PLANE 0
 #include "tiles/list_nodes.glsl"
 
 void main() {

@@ -4,6 +4,11 @@
 #include "lines/surface_box.glsl"
 #include "lines/element_start.glsl"
 #include "cut_surface/cut_horizon.glsl"
+#include "cut_surface/meets_plane.glsl"
+
+// In place of what lines/surface_box.glsl says.
+#undef core_reaches
+#define core_reaches(surface, node) (core_overlaps(node, surface.box.lower, surface.box.upper) && core_meets_plane(node))
 
 #define CORE_MOVES_FIRST 1
 

@@ -22,7 +22,8 @@ layout(std140, set = 0, binding = 0) uniform core_view {
     elvis_vec4 core_reference_in_hierarchy;
     // xyz: unit normal of the plane; w: row0.
     elvis_vec4 core_plane_normal;
-    // x: the depth from which on crossings with surfaces count; y: how far off along its ray a point is that is not undecided, at most.
+    // x: the depth from which on crossings with surfaces count; y: how far off along its ray a point is that is not undecided, at most;
+    // z: signed distance of the hierarchies' centre from the plane, along its normal; w: what rounding of world coordinates makes of it.
     elvis_vec4 core_near;
 };
 

@@ -1,12 +1,19 @@
 // For each tile of pixels, the nodes of a hierarchy that touch a box: neighbouring pixels share most of their way through the hierarchy, so
 // it is gone once for all of them.
 //
-// The kernel brings core_tiles, and CORE_LISTED_BINDING.
+// The kernel brings core_tiles, CORE_LISTED_BINDING, and CORE_ON_PLANE: 1 for a cut plane, 0 for other surfaces.
 
 #include "tiles/hierarchy.glsl"
 #include "tiles/node_tiles.glsl"
 #include "arithmetic/driver_limit.glsl"
 #include "tiles/list_tile.glsl"
+
+#if CORE_ON_PLANE
+#include "cut_surface/meets_plane.glsl"
+#define core_may_hold(node) core_meets_plane(node)
+#else
+#define core_may_hold(node) true
+#endif
 
 // `is_seen`: there is a box, from `lower` to `upper`; without one the list is empty. `n_tiles`: of the whole picture.
 void core_list_nodes(uint tile, bool is_wanted, bool is_seen, vec3 lower, vec3 upper, uint n_tiles) {
@@ -19,7 +26,7 @@ void core_list_nodes(uint tile, bool is_wanted, bool is_seen, vec3 lower, vec3 u
         stack_size -= 1u;
         const uint index = stack[stack_size];
         const core_node node = core_fetch_node(index);
-        const bool is_touched = core_overlaps(node, lower, upper);
+        const bool is_touched = core_overlaps(node, lower, upper) && core_may_hold(node);
         // A node that could leave too many entries behind stays an entry itself, for the pixels to descend from.
         const bool is_entry = node.is_leaf || n_entries + stack_size + 2u > CORE_TILE_CAPACITY;
         if (is_touched && is_entry) {

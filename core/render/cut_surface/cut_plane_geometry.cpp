@@ -2,6 +2,7 @@
 #include <core/render/cut_surface/cut_plane_geometry.hpp>
 #include <core/vulkan/real_array.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -22,6 +23,13 @@ Vector scaled(const Vector& a, Real factor) { return {factor * a[0], factor * a[
 Vector unit(const Vector& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
 Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/** Of the largest coordinate: more than data that come in double precision are off
+ * (shaders/cut_surface/element_candidate.glsl). */
+constexpr double data_roundings = 1e-14;
+
+double size_of(const std::array<double, 3>& point) {
+    return std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
 }
 std::array<double, 4> row(const Vector& xyz, Real w) {
     return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2]), static_cast<double>(w)};
@@ -85,7 +93,9 @@ CutPlaneGeometry cut_plane_geometry(const CutPlane& plane, const Camera& camera,
                      row(reference, distance),
                      row(plus(reference, convert(centre), -1), column0),
                      row(towards_viewer, row0),
-                     {camera.near, 0, 0, 0}};
+                     {camera.near, 0,
+                      static_cast<double>((geometry.is_flipped ? -1 : 1) * (dot(normal, convert(centre)) + offset)),
+                      data_roundings * size_of(centre)}};
     return geometry;
 }
 

@@ -54,8 +54,6 @@ std::vector<FieldRange> ranges_from_plugin(Background& background, const Runtime
 
 double rounding_of_expression(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                               const Expression& expression) {
-    // Enough to meet what is large, and no more than a picture costs.
-    constexpr std::uint32_t most_elements = 2048;
     struct ErrorParameters {
         std::uint32_t n_sampled, stride;
     };
@@ -75,7 +73,7 @@ double rounding_of_expression(const Device& device, const RuntimeVolume& volume,
         request.text = error_glsl(expression, data.about_class(index));
         request.bindings = {{0, BindingType::storage_buffer}};
         request.push_constant_bytes = sizeof(ErrorParameters);
-        const std::uint32_t stride = divided_up(n_elements, most_elements);
+        const std::uint32_t stride = divided_up(n_elements, expression_error_samples);
         const ErrorParameters parameters{divided_up(n_elements, stride), stride};
         const Buffer output(device, parameters.n_sampled * real_bytes(data.precision()));
         const std::array<const Buffer*, 1> bindings = {&output};

@@ -20,6 +20,9 @@ std::vector<FieldRange> ranges_from_plugin(Background& background, const Runtime
                                            std::uint32_t time_step, elvis_certainty& certainty,
                                            const std::function<void()>& check = {});
 
+/** Elements of a class in which rounding is sampled, at most: every so many of them, from the first on. Enough to meet what is
+ * large, and no more than a picture costs. */
+inline constexpr std::uint32_t expression_error_samples = 2048;
 /** About what rounding costs the selected expression in the precision of `data`: the largest of samples. */
 double rounding_of_expression(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                               const Expression& expression);

@@ -146,6 +146,10 @@ double VolumeRanges::float32_error(const FieldChoice& field, std::uint32_t time_
     return found->second;
 }
 
+void VolumeRanges::set_error(const FieldChoice& expression, std::uint32_t time_step, double error) {
+    m_errors.insert_or_assign({expression.expression->text(), time_step}, error);
+}
+
 double VolumeRanges::value_rounding(const FieldChoice& field, std::uint32_t time_step) {
     if (!field.expression && (field.component >= 0 || field.is_own_boundary)) {
         return 0;

@@ -63,6 +63,8 @@ public:
     void set_components(std::uint32_t field, std::uint32_t time_step, Ranges ranges) {
         m_of_components.insert_or_assign({field, time_step}, std::move(ranges));
     }
+    /** The same for what rounding costs an expression. */
+    void set_error(const FieldChoice& expression, std::uint32_t time_step, double error);
 
     /**
      * What the device needs of a field. Fields lack the middle of their range, so that small variations of large values keep

@@ -4,6 +4,7 @@
 #include "native_snippet.hpp"
 #include "volume.hpp"
 
+#include <elvis/demand.h>
 #include <elvis/native/serve.hpp>
 #include <elvis/native/volume_file.hpp>
 
@@ -144,7 +145,7 @@ public:
         static const std::vector<elvis_text> all = make_sources(true), without_hessian = make_sources(false);
         const std::vector<elvis_text>& sources = has_hessians ? all : without_hessian;
         out.capabilities = ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_FIELD_OFFSET |
-                           ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_MAPPING_HESSIAN |
+                           ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_MAPPING_HESSIAN | ELVIS_SNIPPET_ELEMENT_RECORDS |
                            (has_hessians ? ELVIS_SNIPPET_FIELD_HESSIAN : 0u);
         out.prefix = "native";
         out.n_sources = count(sources.size());

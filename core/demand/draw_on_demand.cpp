@@ -1,0 +1,224 @@
+#include <core/demand/draw_on_demand.hpp>
+
+#include <core/base/error.hpp>
+#include <core/base/milliseconds.hpp>
+#include <core/base/peak_memory.hpp>
+#include <core/demand/box_blocks.hpp>
+#include <core/demand/demand_ranges.hpp>
+#include <core/demand/needed_elements.hpp>
+#include <core/demand/selected_volume.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/render/bands.hpp>
+#include <core/scene/frame_request.hpp>
+#include <core/session/missed_surfaces.hpp>
+#include <core/vulkan/memory_limit.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/** Of a picture that a device binds at once: far more than any of its buffers has for a pixel. */
+constexpr std::uint64_t most_bytes_a_pixel = 256;
+
+void need_budgets_can_hold(const Scene& scene) {
+    const auto refuse = [&](const std::string& what) {
+        throw Error(scene.volume, what + " cannot be drawn within a budget of memory yet; without one they can");
+    };
+    if (!scene.volumes.empty()) {
+        refuse("several volumes");
+    }
+    if (scene.samples > 1) {
+        refuse("several samples a pixel");
+    }
+    for (const SceneSurface& surface : scene.surfaces) {
+        if (surface.streamlines || surface.arrows) {
+            refuse("streamlines, pathlines and arrows");
+        }
+    }
+}
+
+/** What of a budget a need is beyond. */
+std::string beyond(const MemoryNeed& need, const MemoryBudget& budget) {
+    const bool is_device = need.device > budget.device.value_or(UINT64_MAX);
+    return bytes_text(is_device ? need.device : need.host) + (is_device ? " on the device" : " on the host") +
+           ", and the budget is " + bytes_text(is_device ? *budget.device : *budget.host);
+}
+
+MemoryBudget less(const MemoryBudget& budget, const MemoryNeed& taken) {
+    const auto rest = [](std::optional<std::uint64_t> of, std::uint64_t part) {
+        return of ? std::optional(*of - std::min(*of, part)) : of;
+    };
+    return {rest(budget.device, taken.device), rest(budget.host, taken.host)};
+}
+
+std::string surface_text(const Surface& surface, std::size_t index) {
+    return std::string(std::holds_alternative<CutPlane>(surface.geometry) ? "the cut plane" : "the boundary") + " (surface " +
+           std::to_string(index) + ")";
+}
+
+/** Of all surfaces, or nothing for lack of memory; then what lacks it, in words. */
+struct Selection {
+    std::optional<std::vector<std::uint64_t>> elements;
+    std::string lack;
+};
+
+} // namespace
+
+struct VolumeOnDemand::Impl {
+    const RuntimeVolume& whole;
+    const Device& device;
+    Precision precision;
+    MemoryBudget budget;
+    const TaskControl* control;
+    Clock::time_point start = Clock::now();
+    BoxBlocks blocks;
+    DemandWork work{};
+    DemandRanges ranges;
+
+    Impl(const RuntimeVolume& of, const Device& on, Precision with, const MemoryBudget& within, const TaskControl* task)
+        : whole(of), device(on), precision(with), budget(within), control(task), blocks(of, on.background(), task),
+          ranges(on, of, with, blocks, within, task) {
+        work.n_elements = of.n_elements();
+        work.bounds_milliseconds = milliseconds_since(start);
+    }
+
+    bool is_cpu() const { return device.summary().type == "cpu"; }
+    Selection select(const FrameRequest& rows) const;
+    std::uint32_t rows_that_fit(const FrameRequest& request) const;
+    Frame draw_rows(const FrameRequest& rows);
+    StillPicture draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why);
+};
+
+Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
+    const MemoryBudget rest = less(budget, need_of_picture(rows.width, rows.height, precision, is_cpu()));
+    const NeedOfElements need(rows, whole, precision, is_cpu());
+    std::vector<std::uint64_t> all = blocks.farthest();
+    for (std::size_t index = 0; index < rows.surfaces.size(); ++index) {
+        const std::string name = surface_text(rows.surfaces[index], index);
+        try {
+            const std::vector<std::uint64_t> own =
+                needed_elements(rows.surfaces[index], rows, whole, blocks, need.most(rest), control);
+            const std::vector<std::uint64_t> before = std::exchange(all, {});
+            std::ranges::set_union(before, own, std::back_inserter(all));
+            const MemoryNeed total = need.of(all);
+            if (!total.fits(rest)) {
+                return {{},
+                        name + " needs " + std::to_string(own.size()) + " of " + std::to_string(whole.n_elements()) +
+                            " elements, with the picture and the surfaces before it " +
+                            beyond(total + need_of_picture(rows.width, rows.height, precision, is_cpu()), budget)};
+            }
+        } catch (const BoxBlocks::TooMany&) {
+            return {{},
+                    name + " needs more than " + std::to_string(need.most(rest)) + " of " + std::to_string(whole.n_elements()) +
+                        " elements, which are all that the budget of " +
+                        bytes_text(budget.device.value_or(budget.host.value_or(0))) + " has room for"};
+        }
+    }
+    return {std::move(all), {}};
+}
+
+/** The most rows a band whose elements fit, in each of the bands. */
+std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) const {
+    const std::uint64_t binds = device.max_binding_bytes() / most_bytes_a_pixel / std::max(1u, request.width);
+    const auto whole_units = [](std::uint64_t n_rows) {
+        return static_cast<std::uint32_t>(std::max<std::uint64_t>(part_rows, n_rows / part_rows * part_rows));
+    };
+    const bool has_bands = std::ranges::all_of(
+        request.surfaces, [](const Surface& surface) { return std::holds_alternative<CutPlane>(surface.geometry); });
+    std::uint32_t n_rows = request.height <= binds ? request.height : whole_units(binds);
+    while (true) {
+        std::string lack;
+        for (const FrameRequest& band : bands_of(request, n_rows)) {
+            lack = select(band).lack;
+            if (!lack.empty()) {
+                break;
+            }
+        }
+        if (lack.empty()) {
+            return n_rows;
+        }
+        if (!has_bands || n_rows <= part_rows) {
+            throw Error(whole.path(), lack + (has_bands ? "; that is in a band of " + std::to_string(n_rows) + " rows" : ""));
+        }
+        n_rows = whole_units(std::min(n_rows, request.height) / 2);
+    }
+}
+
+Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
+    const bool has_faces = std::ranges::any_of(
+        rows.surfaces, [](const Surface& surface) { return std::holds_alternative<BoundaryFaces>(surface.geometry); });
+    std::vector<std::uint64_t> elements = *select(rows).elements;
+    work.n_on_device = std::max<std::uint64_t>(work.n_on_device, elements.size());
+    ++work.n_bands;
+    const RuntimeVolume selected =
+        selected_volume(whole, std::move(elements), has_faces ? SelectedFaces::of_elements : SelectedFaces::none);
+    Renderer renderer(device, selected, precision, control, {}, true);
+    ranges.tell(rows, renderer.ranges());
+    return renderer.render(rows, control);
+}
+
+StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why) {
+    const MemoryNeed need = NeedOfElements(request, whole, precision, is_cpu()).of_all() +
+                            need_of_picture(request.width, request.height, precision, is_cpu());
+    if (!need.fits(budget)) {
+        throw Error(whole.path(), why + " needs all " + std::to_string(whole.n_elements()) + " elements, at least " +
+                                      beyond(need, budget) + "; cut planes and boundaries need less");
+    }
+    work.n_on_device = whole.n_elements();
+    work.n_bands = 1;
+    Renderer renderer(device, whole, precision, control);
+    return draw_still(scene, whole, renderer, {}, control);
+}
+
+VolumeOnDemand::VolumeOnDemand(const RuntimeVolume& whole, const Device& device, Precision precision,
+                               const MemoryBudget& budget, const TaskControl* control) {
+    if (!can_select(whole) || !whole.has_field_ranges()) {
+        throw Error(whole.path(), "cannot be drawn within a budget of memory: plugin " + whole.plugin().id() +
+                                      " does not say that records belong to elements (elvis/demand.h), or tells no ranges "
+                                      "of fields");
+    }
+    limit_memory(device, budget.device.value_or(0));
+    m_impl = std::make_unique<Impl>(whole, device, precision, budget, control);
+}
+
+VolumeOnDemand::~VolumeOnDemand() { limit_memory(m_impl->device, 0); }
+
+const DemandWork& VolumeOnDemand::work() const { return m_impl->work; }
+
+StillPicture VolumeOnDemand::draw(const Scene& scene) {
+    Impl& impl = *m_impl;
+    need_budgets_can_hold(scene);
+    limit_memory(impl.device, impl.budget.device.value_or(0));
+    impl.work.n_on_device = impl.work.n_bands = 0;
+    StillPicture still;
+    still.request = make_frame_request(scene, impl.whole, impl.ranges);
+    still.request.with_buffers = true;
+    if (const auto why = needs_all(still.request, impl.whole)) {
+        still = impl.draw_whole(scene, still.request, *why);
+    } else {
+        still.remarks = remarks_on(scene, still.request);
+        still.frame = render_band_by_band(still.request, impl.rows_that_fit(still.request),
+                                          [&impl](const FrameRequest& rows) { return impl.draw_rows(rows); });
+        finish_still(scene, impl.whole, still);
+        MissedSurfaces missed;
+        missed.add(still.request, still.frame);
+        for (const std::string& text : missed.remarks(scene, still.request, impl.ranges)) {
+            still.remarks.push_back({true, text});
+        }
+    }
+    impl.work.device_bytes = peak_allocated_bytes(impl.device);
+    impl.work.host_bytes = peak_memory();
+    return still;
+}
+
+} // namespace elvis

@@ -1,0 +1,116 @@
+#include <core/demand/memory_need.hpp>
+
+#include <core/expression/expression.hpp>
+#include <core/hierarchy/hierarchy.hpp>
+#include <core/volume/element/element_records.hpp>
+#include <core/vulkan/real_array.hpp>
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+/** Two nodes of the hierarchy, records of where Newton's method starts, and what is known of strongly bent ones. */
+constexpr std::uint64_t device_bytes_an_element = 2 * sizeof(HierarchyNode) + 4 * element_record_size + 20;
+/** Boxes, origins, the hierarchy while it is built and as it is, curvatures, numbers: 390 bytes by count, of which some go. */
+constexpr std::uint64_t host_bytes_an_element = 400;
+/** Layers of one surface, and what merges them; the picture as the program has it. */
+constexpr std::uint64_t device_numbers_a_pixel = 64, host_bytes_a_pixel = 320;
+/** Staging, parts of buffers on their way, kernels, tables: measured with pictures of a few elements. */
+constexpr std::uint64_t device_bytes_in_any_case = std::uint64_t{4} << 20, host_bytes_in_any_case = std::uint64_t{192} << 20;
+
+/** Records are padded to rows of four numbers. */
+std::uint64_t padded(std::uint64_t n_numbers) { return (n_numbers + 3) / 4 * 4; }
+
+/** Fields as they are on the device, the magnitude's apart, which lacks nothing. */
+std::set<std::pair<std::uint32_t, bool>> device_fields(const FrameRequest& request) {
+    std::set<std::pair<std::uint32_t, bool>> fields;
+    for (const Surface& surface : request.surfaces) {
+        if (surface.field.expression) {
+            for (const std::uint32_t field : surface.field.expression->fields()) {
+                fields.emplace(field, false);
+            }
+        } else {
+            fields.emplace(surface.field.field, surface.field.component < 0);
+        }
+    }
+    return fields;
+}
+
+} // namespace
+
+NeedOfElements::NeedOfElements(const FrameRequest& request, const RuntimeVolume& whole, Precision precision, bool is_cpu)
+    : m_n_elements(whole.n_elements()), m_is_cpu(is_cpu) {
+    const std::uint64_t real = real_bytes(precision);
+    const auto fields = device_fields(request);
+    const bool has_lines = std::ranges::any_of(request.surfaces, [](const Surface& surface) { return surface.has_lines(); });
+    for (const ClassInfo& info : whole.classes()) {
+        // Origins and curvatures are records of one row each.
+        m_bytes.push_back(device_bytes_an_element + 2 * 4 * real);
+        m_first_elements.push_back(info.first_element);
+    }
+    for (const auto& [field, is_magnitude] : fields) {
+        for (std::uint64_t& bytes : m_bytes) {
+            bytes += has_lines ? 4 * real * whole.fields()[field].n_components : 0;
+        }
+    }
+    for (std::uint32_t buffer = 0; buffer < whole.n_buffers(); ++buffer) {
+        for (const auto& [field, is_magnitude] : fields) {
+            const BufferInfo info = whole.buffer(buffer, field);
+            const std::uint64_t record =
+                padded(info.record_size) * (info.kind == ELVIS_BUFFER_REAL ? real : sizeof(std::uint32_t));
+            if (info.element_class == ELVIS_ALL_CLASSES) {
+                m_shared_bytes += record * info.n_records;
+            } else {
+                m_bytes[info.element_class] += record;
+            }
+            if ((info.depends & ELVIS_DEPENDS_ON_FIELD) == 0) {
+                break;
+            }
+        }
+    }
+}
+
+MemoryNeed NeedOfElements::of_class(std::size_t element_class, std::uint64_t n_elements) const {
+    const std::uint64_t device = m_bytes[element_class] * n_elements;
+    return {device, host_bytes_an_element * n_elements + (m_is_cpu ? device : 0)};
+}
+
+MemoryNeed NeedOfElements::of(std::span<const std::uint64_t> elements) const {
+    MemoryNeed need{m_shared_bytes, m_is_cpu ? m_shared_bytes : 0};
+    for (std::size_t index = 0; index < m_bytes.size(); ++index) {
+        const auto first = std::ranges::lower_bound(elements, m_first_elements[index]);
+        const auto end =
+            index + 1 < m_bytes.size() ? std::ranges::lower_bound(elements, m_first_elements[index + 1]) : elements.end();
+        need = need + of_class(index, static_cast<std::uint64_t>(end - first));
+    }
+    return need;
+}
+
+MemoryNeed NeedOfElements::of_all() const {
+    MemoryNeed need{m_shared_bytes, m_is_cpu ? m_shared_bytes : 0};
+    for (std::size_t index = 0; index < m_bytes.size(); ++index) {
+        const std::uint64_t end = index + 1 < m_bytes.size() ? m_first_elements[index + 1] : m_n_elements;
+        need = need + of_class(index, end - m_first_elements[index]);
+    }
+    return need;
+}
+
+std::uint64_t NeedOfElements::most(const MemoryBudget& budget) const {
+    const std::uint64_t least = *std::ranges::min_element(m_bytes);
+    return std::min({m_n_elements, budget.device.value_or(UINT64_MAX) / least,
+                     budget.host.value_or(UINT64_MAX) / (host_bytes_an_element + (m_is_cpu ? least : 0))});
+}
+
+MemoryNeed need_of_picture(std::uint32_t width, std::uint32_t height, Precision precision, bool is_cpu) {
+    const std::uint64_t n_pixels = std::uint64_t{width} * height;
+    const std::uint64_t device = device_bytes_in_any_case + device_numbers_a_pixel * real_bytes(precision) * n_pixels;
+    return {device, host_bytes_in_any_case + host_bytes_a_pixel * n_pixels + (is_cpu ? device : 0)};
+}
+
+std::string bytes_text(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20u) - 1) >> 20u) + " MiB"; }
+
+} // namespace elvis

@@ -1,0 +1,61 @@
+/**
+ * @file memory_need.hpp
+ * What elements of a volume take in memory, to tell before anything is read whether they fit.
+ */
+#pragma once
+
+#include <core/render/frame.hpp>
+#include <core/vulkan/precision.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace elvis {
+
+/** Most bytes that pictures may take; as much as there is where none are given. */
+struct MemoryBudget {
+    std::optional<std::uint64_t> device, host;
+};
+
+struct MemoryNeed {
+    std::uint64_t device = 0, host = 0;
+
+    MemoryNeed operator+(const MemoryNeed& other) const { return {device + other.device, host + other.host}; }
+    bool fits(const MemoryBudget& budget) const {
+        return device <= budget.device.value_or(UINT64_MAX) && host <= budget.host.value_or(UINT64_MAX);
+    }
+};
+
+/** Of a picture, by what its surfaces show. */
+class NeedOfElements {
+public:
+    NeedOfElements(const FrameRequest& request, const RuntimeVolume& whole, Precision precision, bool is_cpu);
+
+    /** `elements`: ascending. */
+    MemoryNeed of(std::span<const std::uint64_t> elements) const;
+    MemoryNeed of_all() const;
+    /** How many elements fit at most. */
+    std::uint64_t most(const MemoryBudget& budget) const;
+
+private:
+    MemoryNeed of_class(std::size_t element_class, std::uint64_t n_elements) const;
+
+    /** What all elements share: buffers for all classes. */
+    std::uint64_t m_shared_bytes = 0;
+    /** Of an element of each class, on the device. */
+    std::vector<std::uint64_t> m_bytes;
+    std::vector<std::uint64_t> m_first_elements;
+    std::uint64_t m_n_elements = 0;
+    bool m_is_cpu;
+};
+
+/** Of the picture itself, whatever it shows. */
+MemoryNeed need_of_picture(std::uint32_t width, std::uint32_t height, Precision precision, bool is_cpu);
+
+/** "123 MiB", rounded up. */
+std::string bytes_text(std::uint64_t bytes);
+
+} // namespace elvis

@@ -1,0 +1,84 @@
+// Pictures of chosen elements against those of the whole volume: the same to the bit.
+
+#include "demand_fixture.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <cstdio>
+
+using namespace elvis;
+using namespace elvis::test;
+
+namespace {
+
+constexpr MemoryBudget unlimited{};
+
+struct NamedKeys {
+    const char* name;
+    const char* keys;
+};
+
+/** A plane in faces, oblique ones, from near and far, with lines, several and such as are seen through. */
+const NamedKeys plane_pictures[] = {
+    {"plane in faces", R"("surfaces": [{"type": "plane", "plane": [0, 0, 1, 0]}], "mesh_lines": {})"},
+    {"oblique plane", R"("surfaces": [{"type": "plane", "plane": [0.3, -0.5, 0.8, 0.05]}])"},
+    {"oblique plane with lines",
+     R"("surfaces": [{"type": "plane", "plane": [0.3, -0.5, 0.8, 0.05]}], "mesh_lines": {"width": 2}, "contours": {"count": 7})"},
+    {"grazing plane from inside",
+     R"("surfaces": [{"type": "plane", "plane": [0, 0.02, 1, -0.01]}], "mesh_lines": {}, "contours": {"count": 5},
+        "camera": {"eye": [0.31, -0.63, 0.07], "look_at": [0.1, 0.4, 0], "up": [0, 0, 1], "field_of_view": 70})"},
+    {"three planes, one of them transparent",
+     R"("surfaces": [{"type": "plane", "plane": [1, 0, 0, 0.11]}, {"type": "plane", "plane": [0, 1, 0, -0.07], "opacity": 0.5},
+                     {"type": "plane", "plane": [0.5, 0.5, 0.7, 0.2], "clip": [[1, 0, 0, 0]]}], "mesh_lines": {})"},
+    {"close-up", R"("surfaces": [{"type": "plane", "plane": [0.1, 0.2, 1, 0.03]}], "mesh_lines": {}, "contours": {"count": 9},
+        "camera": {"eye": [0.4, 0.3, 1], "look_at": [0.4, 0.35, 0], "up": [0, 1, 0], "type": "orthographic", "height": 0.2})"},
+};
+
+void compare(const char* volume, DemandStage& stage, const NamedKeys& picture, const MemoryBudget& budget = unlimited) {
+    const Scene scene = stage.scene(picture.keys);
+    const Frame whole = stage.as_whole(scene);
+    const Frame chosen = stage.within(budget, scene);
+    const std::string different = differences(whole, chosen);
+    std::printf("%-24s %-38s %5llu of %5llu elements, %u bands, hit %6llu, undecided %4llu: %s\n", volume, picture.name,
+                static_cast<unsigned long long>(stage.work.n_on_device), static_cast<unsigned long long>(stage.work.n_elements),
+                stage.work.n_bands, static_cast<unsigned long long>(whole.counts.hit_pixels),
+                static_cast<unsigned long long>(whole.counts.undecided_pixels),
+                different.empty() ? "the same bits" : different.c_str());
+    INFO(volume << ", " << picture.name);
+    CHECK(whole.counts.hit_pixels > 1000);
+    CHECK(different.empty());
+    CHECK(stage.work.n_on_device < stage.work.n_elements);
+}
+
+struct NamedVolume {
+    const char* name;
+    const char* description;
+};
+
+const NamedVolume all_volumes[] = {
+    {"hexahedra",
+     R"({"generator":1,"mesh":"box","shape":"hexahedron","box":[[-1,-1,-1],[1,1,1]],"elements":[8,7,6],"order":3,"geometry_order":1,"field":"sinc"})"},
+    {"mixed, curved",
+     R"({"generator":1,"mesh":"waves","shape":"mixed","elements":[6,6,6],"order":3,"geometry_order":2,"field":"sinc"})"},
+    {"prisms",
+     R"({"generator":1,"mesh":"waves","shape":"prism","elements":[6,5,6],"order":2,"geometry_order":2,"field":"taylor-green"})"},
+    {"pyramids, jumps",
+     R"({"generator":1,"mesh":"box","shape":"pyramid","box":[[-1,-1,-1],[1,1,1]],"elements":[5,5,5],"order":2,"geometry_order":1,"field":"jump"})"},
+    {"tetrahedra",
+     R"({"generator":1,"mesh":"waves","shape":"tetrahedron","elements":[5,5,5],"order":3,"geometry_order":3,"field":"sinc"})"},
+    {"ball",
+     R"({"generator":1,"mesh":"ball","shape":"hexahedron","elements":[4,4,4],"order":3,"geometry_order":3,"field":"sphere"})"},
+};
+
+} // namespace
+
+TEST_CASE("Planes show the same bits whether all elements are there or those that they need") {
+    for (const NamedVolume& volume : all_volumes) {
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            DemandStage stage(volume.description, precision);
+            for (const NamedKeys& picture : plane_pictures) {
+                compare(volume.name, stage, picture);
+            }
+        }
+    }
+}
