@@ -146,8 +146,15 @@ void DemandRanges::tell(const FrameRequest& request, VolumeRanges& ranges) {
             ranges.set_components(field, request.time_step, of_components(field, request.time_step));
         }
         if (surface.field.expression) {
-            const double error = sample(surface.field, request.time_step).float32_error(surface.field, request.time_step, 0);
-            ranges.set_error(surface.field, request.time_step, error);
+            const std::pair key(surface.field.expression->text(), request.time_step);
+            auto known = m_errors.find(key);
+            if (known == m_errors.end()) {
+                const double error =
+                    sample(surface.field, request.time_step).float32_error(surface.field, request.time_step, 0);
+                known = m_errors.try_emplace(key, error).first;
+                m_sample.reset();
+            }
+            ranges.set_error(surface.field, request.time_step, known->second);
         }
     }
 }

@@ -58,6 +58,8 @@ private:
     std::unique_ptr<Sample> m_sample;
     std::map<std::pair<std::uint32_t, std::uint32_t>, VolumeRanges::Ranges> m_of_components;
     std::map<std::pair<std::string, std::uint32_t>, FieldExtrema> m_extrema;
+    /** Of expressions. */
+    std::map<std::pair<std::string, std::uint32_t>, double> m_errors;
 };
 
 } // namespace elvis

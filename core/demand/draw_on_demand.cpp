@@ -93,6 +93,9 @@ struct VolumeOnDemand::Impl {
     }
 
     bool is_cpu() const { return device.summary().type == "cpu"; }
+    MemoryNeed need_of_picture(const FrameRequest& request) const {
+        return elvis::need_of_picture(request, whole.classes().size(), precision, is_cpu());
+    }
     Selection select(const FrameRequest& rows) const;
     std::uint32_t rows_that_fit(const FrameRequest& request) const;
     Frame draw_rows(const FrameRequest& rows);
@@ -100,7 +103,7 @@ struct VolumeOnDemand::Impl {
 };
 
 Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
-    const MemoryBudget rest = less(budget, need_of_picture(rows.width, rows.height, precision, is_cpu()));
+    const MemoryBudget rest = less(budget, need_of_picture(rows));
     const NeedOfElements need(rows, whole, precision, is_cpu());
     std::vector<std::uint64_t> all = blocks.farthest();
     for (std::size_t index = 0; index < rows.surfaces.size(); ++index) {
@@ -115,7 +118,7 @@ Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
                 return {{},
                         name + " needs " + std::to_string(own.size()) + " of " + std::to_string(whole.n_elements()) +
                             " elements, with the picture and the surfaces before it " +
-                            beyond(total + need_of_picture(rows.width, rows.height, precision, is_cpu()), budget)};
+                            beyond(total + need_of_picture(rows), budget)};
             }
         } catch (const BoxBlocks::TooMany&) {
             return {{},
@@ -168,8 +171,7 @@ Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
 }
 
 StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why) {
-    const MemoryNeed need = NeedOfElements(request, whole, precision, is_cpu()).of_all() +
-                            need_of_picture(request.width, request.height, precision, is_cpu());
+    const MemoryNeed need = NeedOfElements(request, whole, precision, is_cpu()).of_all() + need_of_picture(request);
     if (!need.fits(budget)) {
         throw Error(whole.path(), why + " needs all " + std::to_string(whole.n_elements()) + " elements, at least " +
                                       beyond(need, budget) + "; cut planes and boundaries need less");

@@ -2,11 +2,13 @@
 
 #include <core/expression/expression.hpp>
 #include <core/hierarchy/hierarchy.hpp>
+#include <core/volume/element/element_octants.hpp>
 #include <core/volume/element/element_records.hpp>
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace elvis {
@@ -17,10 +19,15 @@ namespace {
 constexpr std::uint64_t device_bytes_an_element = 2 * sizeof(HierarchyNode) + 4 * element_record_size + 20;
 /** Boxes, origins, the hierarchy while it is built and as it is, curvatures, numbers: 390 bytes by count, of which some go. */
 constexpr std::uint64_t host_bytes_an_element = 400;
-/** Layers of one surface, and what merges them; the picture as the program has it. */
-constexpr std::uint64_t device_numbers_a_pixel = 64, host_bytes_a_pixel = 320;
-/** Staging, parts of buffers on their way, kernels, tables: measured with pictures of a few elements. */
-constexpr std::uint64_t device_bytes_in_any_case = std::uint64_t{4} << 20, host_bytes_in_any_case = std::uint64_t{192} << 20;
+/**
+ * The layer of a surface: 61 bytes were measured in single precision without lines, 105 in double precision with them. Several
+ * surfaces, faces and such as are seen through take another layer. Each class has lists of pixels.
+ */
+constexpr std::uint64_t reals_a_pixel = 12, words_a_pixel = 5, words_a_pixel_and_class = 4;
+/** The picture as the program has it, and on its way to files: 126 were measured. */
+constexpr std::uint64_t host_bytes_a_pixel = 160;
+/** Parts of buffers on their way; the program, its driver and the compiler of kernels: 175 MB were measured. */
+constexpr std::uint64_t device_bytes_in_any_case = std::uint64_t{1} << 20, host_bytes_in_any_case = std::uint64_t{192} << 20;
 
 /** Records are padded to rows of four numbers. */
 std::uint64_t padded(std::uint64_t n_numbers) { return (n_numbers + 3) / 4 * 4; }
@@ -40,6 +47,19 @@ std::set<std::pair<std::uint32_t, bool>> device_fields(const FrameRequest& reque
     return fields;
 }
 
+/** Kernels that look for points of planes: each may come to look for them in octants. */
+std::size_t n_plane_passes(const FrameRequest& request) {
+    std::set<std::tuple<std::string, std::uint32_t, bool, bool>> passes;
+    for (const Surface& surface : request.surfaces) {
+        if (std::holds_alternative<CutPlane>(surface.geometry)) {
+            const FieldChoice& field = surface.field;
+            passes.emplace(field.expression ? field.expression->text() : std::string(), field.field, field.component < 0,
+                           surface.has_lines());
+        }
+    }
+    return passes.size();
+}
+
 } // namespace
 
 NeedOfElements::NeedOfElements(const FrameRequest& request, const RuntimeVolume& whole, Precision precision, bool is_cpu)
@@ -51,6 +71,7 @@ NeedOfElements::NeedOfElements(const FrameRequest& request, const RuntimeVolume&
         // Origins and curvatures are records of one row each.
         m_bytes.push_back(device_bytes_an_element + 2 * 4 * real);
         m_first_elements.push_back(info.first_element);
+        m_shared_bytes += info.is_affine || info.n_elements == 0 ? 0 : n_plane_passes(request) * octants_bytes;
     }
     for (const auto& [field, is_magnitude] : fields) {
         for (std::uint64_t& bytes : m_bytes) {
@@ -105,9 +126,12 @@ std::uint64_t NeedOfElements::most(const MemoryBudget& budget) const {
                      budget.host.value_or(UINT64_MAX) / (host_bytes_an_element + (m_is_cpu ? least : 0))});
 }
 
-MemoryNeed need_of_picture(std::uint32_t width, std::uint32_t height, Precision precision, bool is_cpu) {
-    const std::uint64_t n_pixels = std::uint64_t{width} * height;
-    const std::uint64_t device = device_bytes_in_any_case + device_numbers_a_pixel * real_bytes(precision) * n_pixels;
+MemoryNeed need_of_picture(const FrameRequest& request, std::size_t n_classes, Precision precision, bool is_cpu) {
+    const std::uint64_t n_pixels = std::uint64_t{request.width} * request.height;
+    const bool is_simple = request.surfaces.size() == 1 && !request.surfaces.front().is_see_through() &&
+                           std::holds_alternative<CutPlane>(request.surfaces.front().geometry);
+    const std::uint64_t layers = (is_simple ? 1 : 2) * (reals_a_pixel * real_bytes(precision) + 4 * words_a_pixel);
+    const std::uint64_t device = device_bytes_in_any_case + (layers + 4 * words_a_pixel_and_class * n_classes) * n_pixels;
     return {device, host_bytes_in_any_case + host_bytes_a_pixel * n_pixels + (is_cpu ? device : 0)};
 }
 

@@ -37,13 +37,13 @@ public:
     /** `elements`: ascending. */
     MemoryNeed of(std::span<const std::uint64_t> elements) const;
     MemoryNeed of_all() const;
-    /** How many elements fit at most. */
+    /** How many elements fit at most, and not what they share. */
     std::uint64_t most(const MemoryBudget& budget) const;
 
 private:
     MemoryNeed of_class(std::size_t element_class, std::uint64_t n_elements) const;
 
-    /** What all elements share: buffers for all classes. */
+    /** What all elements share: buffers for all classes, and octants of bent ones, which come when they are asked for. */
     std::uint64_t m_shared_bytes = 0;
     /** Of an element of each class, on the device. */
     std::vector<std::uint64_t> m_bytes;
@@ -52,8 +52,8 @@ private:
     bool m_is_cpu;
 };
 
-/** Of the picture itself, whatever it shows. */
-MemoryNeed need_of_picture(std::uint32_t width, std::uint32_t height, Precision precision, bool is_cpu);
+/** Of the picture itself, whatever elements it shows. */
+MemoryNeed need_of_picture(const FrameRequest& request, std::size_t n_classes, Precision precision, bool is_cpu);
 
 /** "123 MiB", rounded up. */
 std::string bytes_text(std::uint64_t bytes);

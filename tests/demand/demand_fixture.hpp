@@ -44,6 +44,9 @@ public:
         return draw_still(scene, *m_whole, *m_renderer, {}).frame;
     }
 
+    /** What it has on the device. */
+    void forget_whole() { m_renderer.reset(); }
+
     Frame within(const MemoryBudget& budget, const Scene& scene) {
         VolumeOnDemand demand(*m_whole, device(), m_precision, budget);
         Frame frame = demand.draw(scene).frame;

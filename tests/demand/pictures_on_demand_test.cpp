@@ -2,6 +2,8 @@
 
 #include "demand_fixture.hpp"
 
+#include <core/base/error.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <cstdio>
@@ -79,6 +81,53 @@ TEST_CASE("Planes show the same bits whether all elements are there or those tha
             for (const NamedKeys& picture : plane_pictures) {
                 compare(volume.name, stage, picture);
             }
+        }
+    }
+}
+
+TEST_CASE("Boundaries show the same bits whether all elements are there or those that they need") {
+    const NamedKeys pictures[] = {
+        {"boundary", R"("surfaces": [{"type": "boundary"}], "mesh_lines": {}, "contours": {"count": 5})"},
+        {"boundary and a plane behind it",
+         R"("surfaces": [{"type": "boundary", "opacity": 0.5}, {"type": "plane", "plane": [0.2, 0.1, 1, 0.1]}])"},
+        {"one group, by an expression",
+         R"("surfaces": [{"type": "boundary", "groups": ["z+"]}, {"type": "plane", "plane": [0, 1, 0.1, 0]}], "field": "2 * sinc + x",
+            "color_map": {"name": "viridis", "range": [-1, 3]})"},
+    };
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        DemandStage stage(all_volumes[1].description, precision);
+        for (const NamedKeys& picture : pictures) {
+            compare(all_volumes[1].name, stage, picture);
+        }
+    }
+}
+
+TEST_CASE("Planes that do not fit a budget are drawn in bands, to the same bits") {
+    // Of straight tetrahedra nothing is kept but their records.
+    const char* const straight =
+        R"({"generator":1,"mesh":"box","shape":"tetrahedron","elements":[20,20,20],"order":2,"geometry_order":1,"field":"sinc"})";
+    DemandStage stage(straight);
+    const NamedKeys& picture = plane_pictures[1];
+    const Scene scene = stage.scene(picture.keys);
+    const Frame whole = stage.as_whole(scene);
+    stage.forget_whole();
+    CHECK(differences(whole, stage.within(unlimited, scene)).empty());
+    const std::uint64_t taken = stage.work.device_bytes;
+    std::uint32_t n_bands = 1;
+    for (std::uint64_t budget = 2 * taken; budget > 0; budget = budget / 8 * 7) {
+        try {
+            const Frame chosen = stage.within({budget, {}}, scene);
+            std::printf("%llu of %llu bytes on the device, budget %llu: %u bands\n",
+                        static_cast<unsigned long long>(stage.work.device_bytes), static_cast<unsigned long long>(taken),
+                        static_cast<unsigned long long>(budget), stage.work.n_bands);
+            CHECK(differences(whole, chosen).empty());
+            CHECK(stage.work.device_bytes <= budget);
+            n_bands = std::max(n_bands, stage.work.n_bands);
+        } catch (const Error& too_large) {
+            std::printf("budget %llu: %s\n", static_cast<unsigned long long>(budget), too_large.what());
+            CHECK(n_bands > 2);
+            CHECK(std::string(too_large.what()).find("the cut plane (surface 0) needs") != std::string::npos);
+            return;
         }
     }
 }

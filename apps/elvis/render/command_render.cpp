@@ -160,6 +160,10 @@ void add_output(CLI::App& command, RenderArguments& a) {
         "--parts", a.parts,
         "N: draw the volume in that many parts, one after the other, as elvis-mpi does with many processes; FILE: "
         "in those that it gives each element, as gpmetis writes them");
+    command.add_option("--device-memory", a.device_memory,
+                       "Size, such as 2G: the most that pictures may take on the device; only elements that they need are "
+                       "read and uploaded");
+    command.add_option("--host-memory", a.host_memory, "The same on the host");
     command.add_option("--bits", a.bits, "Bits a channel: 8 or 16")->check(CLI::IsMember({8, 16}));
     command.add_flag("--validation", a.validation, "Run with the Vulkan validation layer; any message is an error");
     command.add_flag("--schema", a.schema, "Print the JSON Schema of scene files");

@@ -77,6 +77,8 @@ struct RenderArguments {
     int bits = 8;
     /** How many, or a file that says it of each element; empty: the volume is drawn as a whole. */
     std::string parts;
+    /** Sizes: 2G, 800M. Empty: as much as there is. */
+    std::string device_memory, host_memory;
     /** Who draws them; null: this process by itself. */
     DivisibleTeam* team = nullptr;
     bool validation = false;

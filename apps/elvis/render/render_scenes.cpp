@@ -2,6 +2,7 @@
 #include "output_endings.hpp"
 #include "part_choice.hpp"
 #include "render_animation.hpp"
+#include "render_on_demand.hpp"
 #include "render_parts.hpp"
 #include "render_session.hpp"
 #include "say_remarks.hpp"
@@ -38,8 +39,8 @@ struct Wanted {
 void check_names(const Wanted& wanted) {
     const RenderArguments& arguments = wanted.arguments;
     if (!wanted.is_animation) {
-        !arguments.parts.empty() ? need_picture_ending("--output", arguments.output)
-                                 : need_still_ending("--output", arguments.output);
+        !arguments.parts.empty() || has_budget(arguments) ? need_picture_ending("--output", arguments.output)
+                                                          : need_still_ending("--output", arguments.output);
     }
     if (!arguments.buffers.empty()) {
         need_hdf5_ending("--buffers", arguments.buffers);
@@ -101,6 +102,7 @@ Wanted read_wanted(const context& library, const RenderArguments& all, const std
         check_animation(wanted.arguments);
     }
     check_parts(wanted.arguments, is_animation);
+    check_budget(wanted.arguments, is_animation);
     check_names(wanted);
     if (wanted.shown.volume().empty()) {
         throw Error(input, "'volume' is missing");
@@ -250,6 +252,8 @@ void render_scenes(const RenderArguments& arguments) {
         }
         if (!arguments.parts.empty()) {
             render_parts(wanted.arguments, wanted.shown);
+        } else if (has_budget(wanted.arguments)) {
+            render_on_demand(wanted.arguments, wanted.shown);
         } else {
             render_one(wanted, session, {}, start);
         }

@@ -1,6 +1,5 @@
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/volume/element/element_octants.hpp>
-#include <core/volume/isosurface/octant_records.hpp>
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
@@ -16,8 +15,6 @@ namespace {
 /** Octants of one dispatch: bounds time and memory. */
 constexpr std::size_t block = 65536;
 constexpr std::uint32_t group_size = 32;
-/** Octants for which there is room. */
-constexpr std::uint64_t most_octants = 1u << 18;
 /** Halvings of an element: what is still bent then is looked at all the same, and may stay undecided. */
 constexpr std::uint32_t most_levels = 5;
 /** shaders/cut_surface/open_points.comp */

@@ -8,6 +8,7 @@
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/shader/composer.hpp>
 #include <core/volume/device_volume.hpp>
+#include <core/volume/isosurface/octant_records.hpp>
 #include <core/vulkan/buffer.hpp>
 
 #include <cstdint>
@@ -15,6 +16,10 @@
 #include <vector>
 
 namespace elvis {
+
+/** Octants of a class for which there is room, and what that takes on the device, however few elements there are. */
+inline constexpr std::uint64_t most_octants = 1u << 18;
+inline constexpr std::uint64_t octants_bytes = most_octants * (4 * octant_size + 2 * sizeof(HierarchyNode));
 
 /** Of one class. They are made for the elements that the kernel asks for, and kept. */
 class ElementOctants {
