@@ -81,6 +81,21 @@ void BoxBlocks::read(Block& block, Farthest& farthest) {
     }
 }
 
+void BoxBlocks::for_each(const std::function<bool(const ElementBox& around)>& matters,
+                         const std::function<void(std::uint64_t first, std::span<const double> boxes)>& look) const {
+    std::vector<double> boxes;
+    for (const Block& block : m_blocks) {
+        if (matters(block.box)) {
+            if (m_control != nullptr) {
+                m_control->check();
+            }
+            boxes.resize(6 * block.count);
+            m_volume.bounds(block.first, block.count, boxes);
+            look(block.first, boxes);
+        }
+    }
+}
+
 std::vector<std::uint64_t> BoxBlocks::elements_that(const std::function<bool(const ElementBox&)>& meets,
                                                     std::uint64_t most) const {
     std::vector<std::vector<std::uint64_t>> of_blocks(m_blocks.size());

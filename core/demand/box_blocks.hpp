@@ -7,6 +7,7 @@
 #include <core/base/background.hpp>
 #include <core/base/cancel.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/volume/outline.hpp>
 
 #include <array>
 #include <cstdint>
@@ -16,15 +17,16 @@
 
 namespace elvis {
 
-using ElementBox = std::array<double, 6>;
+using ElementBox = BoxPieces::Box;
 
-class BoxBlocks {
+class BoxBlocks final : public BoxPieces {
 public:
     /** Reads the bounds of all elements, block by block. All must outlive it. */
     BoxBlocks(const RuntimeVolume& volume, Background& background, const TaskControl* control);
 
-    /** Of all elements. */
-    const ElementBox& bounds() const { return m_bounds; }
+    const ElementBox& bounds() const override { return m_bounds; }
+    void for_each(const std::function<bool(const ElementBox& around)>& matters,
+                  const std::function<void(std::uint64_t first, std::span<const double> boxes)>& look) const override;
     /**
      * Ascending: for each class and direction along an axis an element that reaches farthest. A selection with these has the
      * bounds of the whole, and each of its classes that of the class.
@@ -40,8 +42,6 @@ public:
 
     /** Thrown where more elements meet than are wanted. */
     struct TooMany {};
-
-    std::uint64_t bytes() const { return m_blocks.size() * sizeof(Block); }
 
 private:
     struct Block {

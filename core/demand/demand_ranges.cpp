@@ -15,8 +15,6 @@ namespace {
 
 /** Of an element, while extrema are searched for: what is known of it twice, and its place in a queue. */
 std::uint64_t search_bytes(std::uint32_t n_components) { return 128 + 32 * std::uint64_t{n_components}; }
-/** Bounds of an element, while the camera is chosen. */
-constexpr std::uint64_t box_bytes = sizeof(ElementBox);
 
 std::string choice_text(const FieldChoice& field, const RuntimeVolume& volume) {
     return field.expression ? field.expression->text() : volume.fields()[field.field].name;
@@ -63,13 +61,7 @@ DemandRanges::~DemandRanges() = default;
 
 const std::vector<Vector3>& DemandRanges::outline() {
     if (m_outline.empty()) {
-        const std::uint64_t bytes = box_bytes * m_whole.n_elements();
-        if (bytes > m_budget.host.value_or(UINT64_MAX)) {
-            throw Error("camera", "is left open: to show all of the volume takes " + bytes_text(bytes) +
-                                      " on the host for bounds of all elements, and the budget is " +
-                                      bytes_text(*m_budget.host) + "; give eye and look_at");
-        }
-        m_outline = outline_points(m_whole, m_device.background());
+        m_outline = outline_points(m_whole, m_blocks);
     }
     return m_outline;
 }

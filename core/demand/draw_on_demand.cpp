@@ -103,28 +103,28 @@ struct VolumeOnDemand::Impl {
 };
 
 Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
-    const MemoryBudget rest = less(budget, need_of_picture(rows));
     const NeedOfElements need(rows, whole, precision, is_cpu());
+    const MemoryNeed in_any_case = need_of_picture(rows) + need.shared();
+    if (!in_any_case.fits(budget)) {
+        return {{}, "the picture takes, whatever it shows, " + beyond(in_any_case, budget)};
+    }
+    const std::uint64_t most = need.most(less(budget, in_any_case));
+    const std::string of_all =
+        " of " + std::to_string(whole.n_elements()) + " elements, with the picture and surfaces before it ";
     std::vector<std::uint64_t> all = blocks.farthest();
     for (std::size_t index = 0; index < rows.surfaces.size(); ++index) {
         const std::string name = surface_text(rows.surfaces[index], index);
         try {
-            const std::vector<std::uint64_t> own =
-                needed_elements(rows.surfaces[index], rows, whole, blocks, need.most(rest), control);
+            const std::vector<std::uint64_t> own = needed_elements(rows.surfaces[index], rows, whole, blocks, most, control);
             const std::vector<std::uint64_t> before = std::exchange(all, {});
             std::ranges::set_union(before, own, std::back_inserter(all));
-            const MemoryNeed total = need.of(all);
-            if (!total.fits(rest)) {
-                return {{},
-                        name + " needs " + std::to_string(own.size()) + " of " + std::to_string(whole.n_elements()) +
-                            " elements, with the picture and the surfaces before it " +
-                            beyond(total + need_of_picture(rows), budget)};
+            if (const MemoryNeed total = in_any_case + need.of(all); !total.fits(budget)) {
+                return {{}, name + " needs " + std::to_string(own.size()) + of_all + beyond(total, budget)};
             }
         } catch (const BoxBlocks::TooMany&) {
             return {{},
-                    name + " needs more than " + std::to_string(need.most(rest)) + " of " + std::to_string(whole.n_elements()) +
-                        " elements, which are all that the budget of " +
-                        bytes_text(budget.device.value_or(budget.host.value_or(0))) + " has room for"};
+                    name + " needs more than " + std::to_string(most) + of_all + "more than " +
+                        beyond(in_any_case + need.least_of(most + 1), budget)};
         }
     }
     return {std::move(all), {}};
@@ -171,7 +171,8 @@ Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
 }
 
 StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why) {
-    const MemoryNeed need = NeedOfElements(request, whole, precision, is_cpu()).of_all() + need_of_picture(request);
+    const NeedOfElements elements(request, whole, precision, is_cpu());
+    const MemoryNeed need = elements.of_all() + elements.shared() + need_of_picture(request);
     if (!need.fits(budget)) {
         throw Error(whole.path(), why + " needs all " + std::to_string(whole.n_elements()) + " elements, at least " +
                                       beyond(need, budget) + "; cut planes and boundaries need less");

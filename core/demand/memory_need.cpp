@@ -101,7 +101,7 @@ MemoryNeed NeedOfElements::of_class(std::size_t element_class, std::uint64_t n_e
 }
 
 MemoryNeed NeedOfElements::of(std::span<const std::uint64_t> elements) const {
-    MemoryNeed need{m_shared_bytes, m_is_cpu ? m_shared_bytes : 0};
+    MemoryNeed need;
     for (std::size_t index = 0; index < m_bytes.size(); ++index) {
         const auto first = std::ranges::lower_bound(elements, m_first_elements[index]);
         const auto end =
@@ -112,7 +112,7 @@ MemoryNeed NeedOfElements::of(std::span<const std::uint64_t> elements) const {
 }
 
 MemoryNeed NeedOfElements::of_all() const {
-    MemoryNeed need{m_shared_bytes, m_is_cpu ? m_shared_bytes : 0};
+    MemoryNeed need;
     for (std::size_t index = 0; index < m_bytes.size(); ++index) {
         const std::uint64_t end = index + 1 < m_bytes.size() ? m_first_elements[index + 1] : m_n_elements;
         need = need + of_class(index, end - m_first_elements[index]);
@@ -120,10 +120,14 @@ MemoryNeed NeedOfElements::of_all() const {
     return need;
 }
 
+MemoryNeed NeedOfElements::least_of(std::uint64_t n_elements) const {
+    return of_class(static_cast<std::size_t>(std::ranges::min_element(m_bytes) - m_bytes.begin()), n_elements);
+}
+
 std::uint64_t NeedOfElements::most(const MemoryBudget& budget) const {
-    const std::uint64_t least = *std::ranges::min_element(m_bytes);
-    return std::min({m_n_elements, budget.device.value_or(UINT64_MAX) / least,
-                     budget.host.value_or(UINT64_MAX) / (host_bytes_an_element + (m_is_cpu ? least : 0))});
+    const MemoryNeed one = least_of(1);
+    return std::min(
+        {m_n_elements, budget.device.value_or(UINT64_MAX) / one.device, budget.host.value_or(UINT64_MAX) / one.host});
 }
 
 MemoryNeed need_of_picture(const FrameRequest& request, std::size_t n_classes, Precision precision, bool is_cpu) {
@@ -135,6 +139,9 @@ MemoryNeed need_of_picture(const FrameRequest& request, std::size_t n_classes, P
     return {device, host_bytes_in_any_case + host_bytes_a_pixel * n_pixels + (is_cpu ? device : 0)};
 }
 
-std::string bytes_text(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20u) - 1) >> 20u) + " MiB"; }
+std::string bytes_text(std::uint64_t bytes) {
+    const unsigned shift = bytes < (std::uint64_t{64} << 20u) ? 10 : 20;
+    return std::to_string((bytes + (std::uint64_t{1} << shift) - 1) >> shift) + (shift == 10 ? " KiB" : " MiB");
+}
 
 } // namespace elvis

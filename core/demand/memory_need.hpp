@@ -34,16 +34,18 @@ class NeedOfElements {
 public:
     NeedOfElements(const FrameRequest& request, const RuntimeVolume& whole, Precision precision, bool is_cpu);
 
-    /** `elements`: ascending. */
+    /** What all elements share: buffers for all classes, and octants of bent ones, which come when they are asked for. */
+    MemoryNeed shared() const { return {m_shared_bytes, m_is_cpu ? m_shared_bytes : 0}; }
+    /** Without that. `elements`: ascending. */
     MemoryNeed of(std::span<const std::uint64_t> elements) const;
     MemoryNeed of_all() const;
-    /** How many elements fit at most, and not what they share. */
+    /** What so many take at least; and how many fit at most. */
+    MemoryNeed least_of(std::uint64_t n_elements) const;
     std::uint64_t most(const MemoryBudget& budget) const;
 
 private:
     MemoryNeed of_class(std::size_t element_class, std::uint64_t n_elements) const;
 
-    /** What all elements share: buffers for all classes, and octants of bent ones, which come when they are asked for. */
     std::uint64_t m_shared_bytes = 0;
     /** Of an element of each class, on the device. */
     std::vector<std::uint64_t> m_bytes;
@@ -55,7 +57,7 @@ private:
 /** Of the picture itself, whatever elements it shows. */
 MemoryNeed need_of_picture(const FrameRequest& request, std::size_t n_classes, Precision precision, bool is_cpu);
 
-/** "123 MiB", rounded up. */
+/** "123 MiB" or, of less, "4567 KiB", rounded up. */
 std::string bytes_text(std::uint64_t bytes);
 
 } // namespace elvis

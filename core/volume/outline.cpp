@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 namespace elvis {
 
@@ -19,7 +21,7 @@ constexpr double worth_a_look = 0.01;
 /** Fewer elements than this may be large and strongly bent. */
 constexpr std::uint64_t few_elements = 128;
 
-using Box = std::array<double, 6>;
+using Box = BoxPieces::Box;
 
 /** Along the axes, and spread evenly over the sphere (Fibonacci's lattice). */
 std::vector<Vector3> all_around() {
@@ -111,34 +113,51 @@ public:
         }
     }
 
-    /** Of each direction the element whose bounds reach farthest. */
-    std::vector<std::uint64_t> first_candidates(const std::vector<double>& boxes) const {
-        std::vector<std::uint64_t> elements(m_directions.size());
+    /** Of each direction the element whose bounds reach farthest, and that box. */
+    std::map<std::uint64_t, Box> first_candidates(const BoxPieces& pieces) const {
+        std::vector<std::pair<std::uint64_t, Box>> best(m_directions.size());
         std::vector<double> reach = m_reach;
-        const auto look_at = [&](std::size_t i, std::uint64_t element) {
-            const double here = dot(m_directions[i], farthest_corner(box_of(boxes, element), m_directions[i]));
-            elements[i] = here > reach[i] ? element : elements[i];
-            reach[i] = std::max(reach[i], here);
+        const auto may_reach = [&](const Box& around, std::size_t i) {
+            return dot(m_directions[i], farthest_corner(around, m_directions[i])) > reach[i];
         };
-        // Elements that follow each other lie together, and most of them inside.
-        constexpr std::uint64_t together = 64;
-        for (std::uint64_t first = 0; first < boxes.size() / 6; first += together) {
-            const std::uint64_t end = std::min(first + together, std::uint64_t{boxes.size() / 6});
-            const Box all = box_of_all(boxes, first, end);
+        const auto matters = [&](const Box& around) {
             for (std::size_t i = 0; i < m_directions.size(); ++i) {
-                const bool may_reach = dot(m_directions[i], farthest_corner(all, m_directions[i])) > reach[i];
-                for (std::uint64_t element = first; may_reach && element < end; ++element) {
-                    look_at(i, element);
+                if (may_reach(around, i)) {
+                    return true;
                 }
             }
+            return false;
+        };
+        pieces.for_each(matters, [&](std::uint64_t first, std::span<const double> boxes) {
+            for_each_group(boxes, [&](std::uint64_t at, std::uint64_t end, const Box& around) {
+                for (std::size_t i = 0; i < m_directions.size(); ++i) {
+                    for (std::uint64_t element = at; may_reach(around, i) && element < end; ++element) {
+                        const Box box = box_of(boxes, element);
+                        const double here = dot(m_directions[i], farthest_corner(box, m_directions[i]));
+                        if (here > reach[i]) {
+                            best[i] = {first + element, box};
+                            reach[i] = here;
+                        }
+                    }
+                }
+            });
+        });
+        return {best.begin(), best.end()};
+    }
+
+    /** Calls look(first, end, box around them) for elements that follow each other: they lie together, and most of them inside.
+     */
+    template <class Look> static void for_each_group(std::span<const double> boxes, Look look) {
+        constexpr std::uint64_t together = 64;
+        const std::uint64_t n = boxes.size() / 6;
+        for (std::uint64_t at = 0; at < n; at += together) {
+            const std::uint64_t end = std::min(at + together, n);
+            look(at, end, box_of_all(boxes, at, end));
         }
-        std::sort(elements.begin(), elements.end());
-        elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
-        return elements;
     }
 
     /** Of elements `first` to `end - 1`. */
-    static Box box_of_all(const std::vector<double>& boxes, std::uint64_t first, std::uint64_t end) {
+    static Box box_of_all(std::span<const double> boxes, std::uint64_t first, std::uint64_t end) {
         Box all = box_of(boxes, first);
         for (std::uint64_t at = 6 * first; at < 6 * end; ++at) {
             const std::size_t axis = at % 6;
@@ -156,7 +175,7 @@ public:
         return false;
     }
 
-    static Box box_of(const std::vector<double>& boxes, std::uint64_t element) {
+    static Box box_of(std::span<const double> boxes, std::uint64_t element) {
         Box box{};
         std::copy_n(boxes.begin() + static_cast<std::ptrdiff_t>(6 * element), box.size(), box.begin());
         return box;
@@ -182,6 +201,23 @@ std::vector<double> all_bounds(const RuntimeVolume& volume, Background& backgrou
     return boxes;
 }
 
+/** All bounds as one piece. */
+class OnePiece : public BoxPieces {
+public:
+    explicit OnePiece(std::span<const double> boxes)
+        : m_boxes(boxes), m_bounds(Outline::box_of_all(boxes, 0, boxes.size() / 6)) {}
+
+    const Box& bounds() const override { return m_bounds; }
+    void for_each(const std::function<bool(const Box& around)>&,
+                  const std::function<void(std::uint64_t first, std::span<const double> boxes)>& look) const override {
+        look(0, m_boxes);
+    }
+
+private:
+    std::span<const double> m_boxes;
+    Box m_bounds;
+};
+
 std::size_t class_of(const RuntimeVolume& volume, std::uint64_t element) {
     const std::vector<ClassInfo>& classes = volume.classes();
     const auto after = std::upper_bound(classes.begin(), classes.end(), element,
@@ -197,34 +233,36 @@ std::vector<Vector3> outline_points(const RuntimeVolume& volume, Background& bac
 
 std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes,
                                     const MappingReader& mapping) {
+    return outline_points(volume, OnePiece(boxes), mapping);
+}
+
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, const BoxPieces& pieces, const MappingReader& mapping) {
     Outline outline(volume, mapping);
-    const std::vector<std::uint64_t> first = outline.first_candidates(boxes);
+    const std::map<std::uint64_t, Box> first = outline.first_candidates(pieces);
     if (!volume.has_evaluation()) {
-        for (const std::uint64_t element : first) {
-            const Box box = Outline::box_of(boxes, element);
+        for (const auto& [element, box] : first) {
             for (unsigned corner = 0; corner < 8; ++corner) {
                 outline.take({box[(corner & 1) ? 3 : 0], box[(corner & 2) ? 4 : 1], box[(corner & 4) ? 5 : 2]});
             }
         }
         return outline.points();
     }
-    for (const std::uint64_t element : first) {
+    for (const auto& [element, box] : first) {
         outline.take_element(class_of(volume, element), element);
     }
-    const double tolerance = worth_a_look * diagonal_of(Outline::box_of_all(boxes, 0, volume.n_elements()));
-    constexpr std::uint64_t together = 64;
-    for (std::uint64_t element = 0; element < volume.n_elements(); ++element) {
-        // Where elements that follow each other do not reach beyond together, none of them does.
-        const std::uint64_t end = std::min(element + together, volume.n_elements());
-        if (element % together == 0 && !outline.may_reach_beyond(Outline::box_of_all(boxes, element, end), tolerance)) {
-            element = end - 1;
-            continue;
-        }
-        if (outline.may_reach_beyond(Outline::box_of(boxes, element), tolerance) &&
-            !std::binary_search(first.begin(), first.end(), element)) {
-            outline.take_element(class_of(volume, element), element);
-        }
-    }
+    const double tolerance = worth_a_look * diagonal_of(pieces.bounds());
+    const auto matters = [&](const Box& around) { return outline.may_reach_beyond(around, tolerance); };
+    pieces.for_each(matters, [&](std::uint64_t piece, std::span<const double> boxes) {
+        Outline::for_each_group(boxes, [&](std::uint64_t at, std::uint64_t end, const Box& around) {
+            // Where elements that follow each other do not reach beyond together, none of them does.
+            for (std::uint64_t index = at; matters(around) && index < end; ++index) {
+                const std::uint64_t element = piece + index;
+                if (matters(Outline::box_of(boxes, index)) && !first.contains(element)) {
+                    outline.take_element(class_of(volume, element), element);
+                }
+            }
+        });
+    });
     return outline.points();
 }
 

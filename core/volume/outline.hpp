@@ -8,6 +8,7 @@
 #include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -31,5 +32,25 @@ using MappingReader = std::function<void(std::uint64_t element, std::span<const 
  */
 std::vector<Vector3> outline_points(const RuntimeVolume& volume, const std::vector<double>& boxes,
                                     const MappingReader& mapping = {});
+
+/** Bounds of elements that are read piece by piece, as often as they are wanted. */
+class BoxPieces {
+public:
+    using Box = std::array<double, 6>;
+
+    virtual ~BoxPieces() = default;
+
+    /** Of all elements. */
+    virtual const Box& bounds() const = 0;
+    /**
+     * Calls look(first element, six numbers for each) for pieces, ascending. Pieces may be left out of which `matters` is not
+     * true of the box around them: it is not true of any box in it either.
+     */
+    virtual void for_each(const std::function<bool(const Box& around)>& matters,
+                          const std::function<void(std::uint64_t first, std::span<const double> boxes)>& look) const = 0;
+};
+
+/** The same points, in the memory of a piece. */
+std::vector<Vector3> outline_points(const RuntimeVolume& volume, const BoxPieces& pieces, const MappingReader& mapping = {});
 
 } // namespace elvis

@@ -24,7 +24,7 @@ endforeach()
 install(FILES interface_changes.txt ../CHANGELOG.md ../core/scene/scenes.md DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT plugin_api)
 install(DIRECTORY abi DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT plugin_api)
 
-foreach(example analytic cut_cells dubiner_dg elvis_dat nurbs)
+foreach(example analytic cut_cells dubiner_dg elvis_dat lattice nurbs)
   set(sources "${CMAKE_CURRENT_SOURCE_DIR}/../plugins/${example}")
   install_page("${sources}/README.md" "examples/${example}")
   install(DIRECTORY "${sources}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/examples" COMPONENT plugin_api PATTERN README.md EXCLUDE)

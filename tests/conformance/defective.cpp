@@ -8,6 +8,7 @@
 #include "defective_data.hpp"
 #include "defective_snippet.hpp"
 
+#include <elvis/demand.h>
 #include <elvis/plugin.h>
 #include <elvis/runtime.h>
 
@@ -31,7 +32,7 @@ constexpr const char* glsl_defects[] = {
     "glsl-pair",        "glsl-gradient",     "glsl-hessian",     "glsl-mapping-hessian", "glsl-inverse",   "glsl-inverse-false",
     "glsl-newton",      "glsl-cancellation", "glsl-nan-outside", "glsl-jump-outside",    "glsl-endless",   "glsl-unset",
     "glsl-no-offset",   "glsl-index",        "glsl-record",      "glsl-own-gradient",    "glsl-own-bound", "glsl-own-side",
-    "glsl-own-nowhere", "glsl-own-unset"};
+    "glsl-own-nowhere", "glsl-own-unset",    "glsl-counts"};
 
 std::int64_t glsl_defect() {
     for (std::size_t i = 0; i < std::size(glsl_defects); ++i) {
@@ -146,7 +147,7 @@ elvis_result get_snippet(elvis_volume*, std::uint32_t, elvis_snippet* out) {
     static const elvis_text source{sizeof(elvis_text), 0, "defective.glsl", text.c_str()};
     out->capabilities = ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_INVERSE_MAPPING |
                         ELVIS_SNIPPET_FIELD_OFFSET | ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_FIELD_HESSIAN |
-                        ELVIS_SNIPPET_MAPPING_HESSIAN | ELVIS_SNIPPET_INSIDE;
+                        ELVIS_SNIPPET_MAPPING_HESSIAN | ELVIS_SNIPPET_INSIDE | ELVIS_SNIPPET_ELEMENT_RECORDS;
     out->prefix = "defective";
     out->n_sources = 1;
     out->sources = &source;

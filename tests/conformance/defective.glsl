@@ -67,6 +67,8 @@ elvis_real elvis_field_value(uint element, elvis_vec3 xi, uint component) {
     elvis_real value = scale.x * (xi.x * xi.x + xi.y * xi.z);
 #if DEFECTIVE_DEFECT == 5
     value += elvis_real(0.001LF);
+#elif DEFECTIVE_DEFECT == 27
+    value += elvis_real(0.001LF) * elvis_real(element);
 #elif DEFECTIVE_DEFECT == 14
     precise elvis_real large = elvis_real(1000000) + value;
     precise elvis_real small = large - elvis_real(1000000);

@@ -100,6 +100,7 @@ constexpr Planted all_planted[] = {
     {"snippet-indices", "glsl-record"},
     {"snippet-outputs", "glsl-own-unset"},
     {"snippet-offset", "glsl-no-offset"},
+    {"element-records", "glsl-counts"},
     {"source-description", "source-bits"},
     {"source-pieces", "source-piece"},
     {"source-threads", "source-threads"},

@@ -53,6 +53,10 @@ TEST_CASE("The plugin of cut cells passes every check") {
     check(ProgramFolder(), "elvis_cut_cells", "--volume '" ELVIS_SOURCES "/plugins/cut_cells/samples/gyroid.cut'");
 }
 
+TEST_CASE("The plugin of lattices passes every check") {
+    check(ProgramFolder(), "elvis_lattice", "--volume '" ELVIS_SOURCES "/plugins/lattice/samples/tiny.txt'");
+}
+
 TEST_CASE("The conversion plugins pass every check") {
     const ProgramFolder place;
     place.write("ball.json", ball);

@@ -57,7 +57,7 @@ TEST_CASE("Links of the installed pages lead somewhere, and the examples are the
                             .c_str()) == 0);
     const fs::path pages = prefix / "share/doc/ElVis";
     CHECK(follow_all_links(pages) > 30);
-    for (const char* example : {"analytic", "cut_cells", "dubiner_dg", "elvis_dat", "nurbs"}) {
+    for (const char* example : {"analytic", "cut_cells", "dubiner_dg", "elvis_dat", "lattice", "nurbs"}) {
         INFO(example);
         CHECK(fs::exists(pages / "examples" / example / "plugin.cpp"));
         CHECK(fs::exists(pages / "examples" / example / "README.md"));

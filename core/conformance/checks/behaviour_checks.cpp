@@ -6,8 +6,12 @@
 #include <core/base/error.hpp>
 #include <core/base/infinity.hpp>
 #include <core/conformance/checks/device_check_tools.hpp>
+#include <core/demand/selected_volume.hpp>
 #include <core/shader/poison.hpp>
 
+#include <elvis/demand.h>
+
+#include <cstring>
 #include <limits>
 
 namespace elvis::conformance {
@@ -242,6 +246,60 @@ void check_field_offset(Context& context) {
     }
 }
 
+/** Points of every other element that is looked at, so that numbers change. */
+std::vector<SamplePoint> half_of(const std::vector<SamplePoint>& points) {
+    std::vector<SamplePoint> half;
+    bool is_left_out = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        is_left_out = i == 0 || points[i].element != points[i - 1].element ? !is_left_out : is_left_out;
+        if (!is_left_out) {
+            half.push_back(points[i]);
+        }
+    }
+    return half;
+}
+
+void check_element_records(Context& context) {
+    const RuntimeVolume volume = open_volume(context);
+    if ((capabilities_of(volume) & ELVIS_SNIPPET_ELEMENT_RECORDS) == 0) {
+        throw Skipped("the snippets do not say that records belong to elements");
+    }
+    if (!can_select(volume)) {
+        context.fail("some classes say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS), and some do not");
+        return;
+    }
+    const auto points = half_of(sample_points(volume, context.subject().seed, 1, false));
+    if (points.empty()) {
+        throw Skipped("there is one element, which cannot be left out");
+    }
+    std::vector<std::uint64_t> elements;
+    for (const SamplePoint& point : points) {
+        elements.push_back(point.element);
+    }
+    std::ranges::sort(elements);
+    const auto repeated = std::ranges::unique(elements);
+    elements.erase(repeated.begin(), repeated.end());
+    auto renumbered = points;
+    for (SamplePoint& point : renumbered) {
+        point.element = static_cast<std::uint64_t>(std::ranges::lower_bound(elements, point.element) - elements.begin());
+    }
+    const RuntimeVolume selected = selected_volume(volume, elements, SelectedFaces::none);
+    DeviceSampler whole(volume, context.subject().device, Precision::float64);
+    DeviceSampler some(selected, context.subject().device, Precision::float64);
+    whole.select(0, 0);
+    some.select(0, 0);
+    context.progress("some elements alone");
+    const auto expected = whole.sample(points), given = some.sample(renumbered);
+    Complaints complaints(context);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (std::memcmp(&given[i], &expected[i], sizeof(Sample)) != 0) {
+            complaints.add(place(volume, points[i]) + ": where other elements are left out the snippet gives something else, " +
+                           text_of(given[i].value) + " instead of " + text_of(expected[i].value) +
+                           " (ELVIS_SNIPPET_ELEMENT_RECORDS)");
+        }
+    }
+}
+
 } // namespace
 
 std::vector<Check> behaviour_checks() {
@@ -252,6 +310,7 @@ std::vector<Check> behaviour_checks() {
         {"snippet-outputs", "functions write all of their outputs", check_outputs},
         {"snippet-indices", "indices of arrays, vectors and records are in range, outside the shape and at NaN, too",
          check_indices},
+        {"element-records", "with the capability ELEMENT_RECORDS elements can be left out", check_element_records},
         {"snippet-offset", "with the capability FIELD_OFFSET the field lacks the offset", check_field_offset},
     };
 }
