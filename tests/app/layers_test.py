@@ -12,8 +12,8 @@ clients = ["apps/elvis/view", "apps/serve", "apps/paraview", "apps/python", "app
 general = ("core/base/", "core/camera/", "core/late_library/")
 # A window has a Vulkan surface of its own to show pictures in.
 of_window = (*general, "core/vulkan/")
-# Drawing in parts of a volume, and what many processes do together: the library has no word for it.
-parts = {"native_volume", "part_choice", "parts_film", "render_parts", "convert_together"}
+# Drawing in parts of a volume or from some of its elements, and what many processes do together: the library has no word for it.
+parts = {"native_volume", "part_choice", "parts_film", "render_parts", "render_on_demand", "convert_together"}
 
 source = Path(sys.argv[1])
 n_files = 0

@@ -59,7 +59,7 @@ TEST_CASE("What does not fit a budget is told, with figures, and nothing is writ
         INFO(options << ": " << outcome.err);
         CHECK(outcome.status == status);
         CHECK(outcome.err.find(words) != std::string::npos);
-        CHECK(names_in(place) == std::vector<std::string>{"lattice.txt"});
+        CHECK(names_in(place) == std::vector<std::string>{"err.txt", "lattice.txt", "out.txt"});
     };
     refused("--cut-plane 0,0,1,0.1 --device-memory 20M", 1, "the picture takes, whatever it shows,");
     refused("--cut-plane 0,0,1,0.1 --cut-plane 0,1,1,0.1 --device-memory 42M", 1, "the cut plane (surface 1) needs more than");
