@@ -74,6 +74,22 @@ TEST_CASE("What does not fit a budget is told, with figures, and nothing is writ
             "several samples a pixel cannot be drawn within a budget");
 }
 
+TEST_CASE("Displaced volumes, and fields joined to a volume, are drawn within a budget, too") {
+    const ProgramFolder place;
+    place.write("box.json",
+                R"({"generator":1,"mesh":"box","elements":[5,5,5],"order":2,"fields":["taylor-green"],"time_steps":2})");
+    REQUIRE(place.run("convert box.json -o box.h5").status == 0);
+    const std::string picture = "render box.h5 --cut-plane 0.2,0.1,1,0.05 --size 160x120 --warp velocity --join later=@1 "
+                                "--field \"pressure - later.pressure\" --range -1,1 ";
+    const Outcome whole = place.run(picture + "-o whole.png");
+    INFO(whole.err);
+    REQUIRE(whole.status == 0);
+    const Outcome chosen = place.run(picture + "--device-memory 1G -o chosen.png");
+    INFO(chosen.err);
+    REQUIRE(chosen.status == 0);
+    CHECK(place.read("whole.png") == place.read("chosen.png"));
+}
+
 TEST_CASE("A plugin whose records belong to no elements is refused within a budget") {
     const ProgramFolder place;
     const Outcome outcome = place.run("render '" ELVIS_SOURCES "/plugins/analytic/samples/twisted_box.txt' --cut-plane 0,0,1,0 "

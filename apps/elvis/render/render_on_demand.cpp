@@ -1,4 +1,5 @@
 #include "render_on_demand.hpp"
+#include "native_volume.hpp"
 
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
@@ -48,14 +49,28 @@ MemoryBudget budget_of(const RenderArguments& arguments) {
     return {size_of("--device-memory", arguments.device_memory), size_of("--host-memory", arguments.host_memory)};
 }
 
-RuntimeVolume open_volume_of(const Scene& scene, const VolumeFile& file, const TaskControl& control) {
-    if (!scene.warp) {
-        return file.open(&control);
+/** A volume, and the files that it lies in, which may be temporary. */
+struct OpenedVolume {
+    std::vector<VolumeFile> files;
+    RuntimeVolume whole;
+};
+
+OpenedVolume open_volume_of(const Scene& scene, const PluginRegistry& plugins, const TaskControl& control) {
+    std::vector<std::string> paths{scene.volume};
+    paths.insert(paths.end(), scene.more_files.begin(), scene.more_files.end());
+    VolumeFile file = find_volume(plugins, paths, scene.plugin, scene.plugin_options, control);
+    if (!scene.warp && scene.joined.empty()) {
+        RuntimeVolume whole = file.open(&control);
+        return {{std::move(file)}, std::move(whole)};
     }
     if (file.plugin->id() != native_plugin_id) {
-        throw Error(scene.volume, "only native volumes, and what is converted to them, are displaced");
+        throw Error(scene.volume,
+                    "is no native volume, nor converted to one: within a budget of memory it is not displaced, and "
+                    "nothing is joined to it");
     }
-    return open_warped(native_source(file.path), *scene.warp, scene.time_step, file.path, &control);
+    OneProcess alone;
+    NativeVolume native = open_native(scene, plugins, alone, control);
+    return {std::move(native.files), std::move(native.whole)};
 }
 
 std::string demand_stats(const StillPicture& still, const DemandWork& work, const Device& device, Precision precision,
@@ -96,10 +111,8 @@ void render_on_demand(const RenderArguments& arguments, const scene& shown) {
     Scene scene = scene_of(nlohmann::json::parse(shown.json()), arguments.is_scene ? arguments.input : "scene");
     const TaskControl control;
     const PluginRegistry plugins;
-    std::vector<std::string> files{scene.volume};
-    files.insert(files.end(), scene.more_files.begin(), scene.more_files.end());
-    const VolumeFile file = find_volume(plugins, files, scene.plugin, scene.plugin_options, control);
-    const RuntimeVolume whole = open_volume_of(scene, file, control);
+    const OpenedVolume opened = open_volume_of(scene, plugins, control);
+    const RuntimeVolume& whole = opened.whole;
     scene.volume = whole.path();
     const Precision precision = scene.precision.value_or(Precision::float32);
     const Device device(arguments.device, arguments.validation);
