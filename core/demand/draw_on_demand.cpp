@@ -112,13 +112,17 @@ Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
     const std::string of_all =
         " of " + std::to_string(whole.n_elements()) + " elements, with the picture and surfaces before it ";
     std::vector<std::uint64_t> all = blocks.farthest();
+    MemoryNeed faces;
     for (std::size_t index = 0; index < rows.surfaces.size(); ++index) {
         const std::string name = surface_text(rows.surfaces[index], index);
         try {
             const std::vector<std::uint64_t> own = needed_elements(rows.surfaces[index], rows, whole, blocks, most, control);
             const std::vector<std::uint64_t> before = std::exchange(all, {});
             std::ranges::set_union(before, own, std::back_inserter(all));
-            if (const MemoryNeed total = in_any_case + need.of(all); !total.fits(budget)) {
+            if (std::holds_alternative<BoundaryFaces>(rows.surfaces[index].geometry)) {
+                faces = faces + need.of_faces(own.size());
+            }
+            if (const MemoryNeed total = in_any_case + faces + need.of(all); !total.fits(budget)) {
                 return {{}, name + " needs " + std::to_string(own.size()) + of_all + beyond(total, budget)};
             }
         } catch (const BoxBlocks::TooMany&) {
@@ -190,7 +194,6 @@ VolumeOnDemand::VolumeOnDemand(const RuntimeVolume& whole, const Device& device,
                                       " does not say that records belong to elements (elvis/demand.h), or tells no ranges "
                                       "of fields");
     }
-    limit_memory(device, budget.device.value_or(0));
     m_impl = std::make_unique<Impl>(whole, device, precision, budget, control);
 }
 

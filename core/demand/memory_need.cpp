@@ -29,6 +29,9 @@ constexpr std::uint64_t host_bytes_a_pixel = 160;
 /** Parts of buffers on their way; the program, its driver and the compiler of kernels: 175 MB were measured. */
 constexpr std::uint64_t device_bytes_in_any_case = std::uint64_t{1} << 20, host_bytes_in_any_case = std::uint64_t{192} << 20;
 
+/** Of a face, without its polynomial: 150 bytes on the device and 250 on the host were measured of straight ones. */
+constexpr std::uint64_t device_bytes_a_face = 200, host_bytes_a_face = 400;
+
 /** Records are padded to rows of four numbers. */
 std::uint64_t padded(std::uint64_t n_numbers) { return (n_numbers + 3) / 4 * 4; }
 
@@ -63,7 +66,7 @@ std::size_t n_plane_passes(const FrameRequest& request) {
 } // namespace
 
 NeedOfElements::NeedOfElements(const FrameRequest& request, const RuntimeVolume& whole, Precision precision, bool is_cpu)
-    : m_n_elements(whole.n_elements()), m_is_cpu(is_cpu) {
+    : m_n_elements(whole.n_elements()), m_real_bytes(real_bytes(precision)), m_is_cpu(is_cpu) {
     const std::uint64_t real = real_bytes(precision);
     const auto fields = device_fields(request);
     const bool has_lines = std::ranges::any_of(request.surfaces, [](const Surface& surface) { return surface.has_lines(); });
@@ -71,6 +74,8 @@ NeedOfElements::NeedOfElements(const FrameRequest& request, const RuntimeVolume&
         // Origins and curvatures are records of one row each.
         m_bytes.push_back(device_bytes_an_element + 2 * 4 * real);
         m_first_elements.push_back(info.first_element);
+        const std::uint64_t order = std::max<std::uint64_t>(1, *std::ranges::max_element(info.geometry_order));
+        m_face_numbers = std::max(m_face_numbers, 3 * (order + 1) * (order + 1));
         m_shared_bytes += info.is_affine || info.n_elements == 0 ? 0 : n_plane_passes(request) * octants_bytes;
     }
     for (const auto& [field, is_magnitude] : fields) {
@@ -118,6 +123,12 @@ MemoryNeed NeedOfElements::of_all() const {
         need = need + of_class(index, end - m_first_elements[index]);
     }
     return need;
+}
+
+MemoryNeed NeedOfElements::of_faces(std::uint64_t n_faces) const {
+    const std::uint64_t device = (device_bytes_a_face + padded(m_face_numbers) * m_real_bytes) * n_faces;
+    // Polynomials are fitted in double precision.
+    return {device, (host_bytes_a_face + m_face_numbers * sizeof(double)) * n_faces + (m_is_cpu ? device : 0)};
 }
 
 MemoryNeed NeedOfElements::least_of(std::uint64_t n_elements) const {

@@ -39,6 +39,8 @@ public:
     /** Without that. `elements`: ascending. */
     MemoryNeed of(std::span<const std::uint64_t> elements) const;
     MemoryNeed of_all() const;
+    /** What so many faces take besides, at least: strongly bent ones take more. */
+    MemoryNeed of_faces(std::uint64_t n_faces) const;
     /** What so many take at least; and how many fit at most. */
     MemoryNeed least_of(std::uint64_t n_elements) const;
     std::uint64_t most(const MemoryBudget& budget) const;
@@ -51,6 +53,9 @@ private:
     std::vector<std::uint64_t> m_bytes;
     std::vector<std::uint64_t> m_first_elements;
     std::uint64_t m_n_elements = 0;
+    /** Numbers of the polynomial of a face. */
+    std::uint64_t m_face_numbers = 0;
+    std::uint64_t m_real_bytes;
     bool m_is_cpu;
 };
 
