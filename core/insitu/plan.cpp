@@ -29,8 +29,8 @@ Scene scene_in(const JsonObject& output, const std::string& folder) {
     }
     Scene scene = said.is_string() ? read_scene((here / said.get<std::string>()).string())
                                    : scene_of(said, (here / output.text("name")).string());
-    if (scene.warp || scene.animation) {
-        output.fail("scene", "has a warp or an animation, which are not drawn of a running solver");
+    if (scene.warp || !scene.joined.empty() || scene.animation) {
+        output.fail("scene", "has a warp, joined volumes or an animation, which are not drawn of a running solver");
     }
     need_parts_can_draw(scene);
     return scene;
