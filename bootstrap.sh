@@ -9,7 +9,7 @@ packages=(
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
     libboost-dev libeigen3-dev libhdf5-dev libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libpng-dev
     libfreetype-dev fonts-dejavu-core libglfw3-dev libimgui-dev libstb-dev
-    libpugixml-dev zlib1g-dev liblz4-dev libturbojpeg0-dev
+    libpugixml-dev zlib1g-dev libdeflate-dev liblz4-dev libturbojpeg0-dev
 )
 python_packages=(python3-dev pybind11-dev python3-numpy)
 mpi_packages=(libopenmpi-dev openmpi-bin)

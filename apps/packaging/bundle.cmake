@@ -27,7 +27,7 @@ install(DIRECTORY tests/gpu/scenes DESTINATION tests/gpu COMPONENT bundle EXCLUD
 install(FILES tests/data/elvis/bulletH1P2.dat tests/data/elvis/LICENSE.ElVis DESTINATION tests/data/elvis COMPONENT bundle EXCLUDE_FROM_ALL)
 
 # What their licences ask for, where Debian keeps them.
-foreach(package fonts-dejavu-core glslang-dev libaec-dev libboost1.74-dev libbrotli-dev libeigen3-dev libfmt-dev libfreetype-dev libglfw3
+foreach(package fonts-dejavu-core glslang-dev libaec-dev libboost1.74-dev libbrotli-dev libdeflate-dev libeigen3-dev libfmt-dev libfreetype-dev libglfw3
                 libhdf5-dev libimgui-dev liblz4-dev libpng-dev libpugixml-dev libspdlog-dev libstdc++-12-dev libsz2 libturbojpeg0-dev nlohmann-json3-dev
                 libcli11-dev spirv-tools zlib1g-dev)
   install(FILES "/usr/share/doc/${package}/copyright" RENAME "${package}" DESTINATION "${CMAKE_INSTALL_DOCDIR}/licenses"

@@ -120,6 +120,7 @@ private:
     native::Description describe() const;
     void write_faces(native::Writer& writer) const;
     void project(const Block& block, std::uint32_t step, BlockResult& result) const;
+    void pack(const native::Writer& writer, const Block& block, std::uint32_t step, BlockResult& result) const;
     void convert_step(native::Writer& writer, std::uint32_t step);
     void convert_step_together(std::uint32_t step, const std::function<void(const Block&, const BlockResult&)>& take);
     void commit(native::Writer& writer, const Block& block, std::uint32_t step, const BlockResult& result);
@@ -223,10 +224,25 @@ void Conversion::project(const Block& block, std::uint32_t step, BlockResult& re
     projection.run(block.first, block.count, step, step == 0, m_control, result);
 }
 
+void Conversion::pack(const native::Writer& writer, const Block& block, std::uint32_t step, BlockResult& result) const {
+    if (step == 0) {
+        result.packed_geometry = writer.pack_geometry(block.element_class, block.first, block.count, result.geometry);
+    }
+    result.packed_fields.resize(m_plans.size());
+    for (std::size_t field = 0; field < m_plans.size(); ++field) {
+        result.packed_fields[field] =
+            writer.pack_field(field, step, block.element_class, block.first, block.count, result.fields[field]);
+    }
+}
+
 void Conversion::convert_step(native::Writer& writer, std::uint32_t step) {
     std::vector<BlockResult> results(n_workers());
     for_each_block(
-        m_blocks.size(), [&](std::uint64_t index, unsigned worker) { project(m_blocks[index], step, results[worker]); },
+        m_blocks.size(),
+        [&](std::uint64_t index, unsigned worker) {
+            project(m_blocks[index], step, results[worker]);
+            pack(writer, m_blocks[index], step, results[worker]);
+        },
         [&](std::uint64_t index, unsigned worker) { commit(writer, m_blocks[index], step, results[worker]); });
 }
 
@@ -251,12 +267,13 @@ void Conversion::convert_step_together(std::uint32_t step, const std::function<v
 void Conversion::commit(native::Writer& writer, const Block& block, std::uint32_t step, const BlockResult& result) {
     m_control.check();
     if (step == 0) {
-        writer.write_geometry(block.element_class, block.first, block.count, result.geometry);
+        writer.write_geometry(block.element_class, block.first, block.count, result.geometry, result.packed_geometry);
         m_n_coefficients += result.geometry.size();
         m_largest_distance = std::max(m_largest_distance, result.largest_distance);
     }
     for (std::size_t field = 0; field < m_plans.size(); ++field) {
-        writer.write_field(field, step, block.element_class, block.first, block.count, result.fields[field]);
+        writer.write_field(field, step, block.element_class, block.first, block.count, result.fields[field],
+                           result.packed_fields.empty() ? native::PackedRows{} : result.packed_fields[field]);
         m_n_coefficients += result.fields[field].size();
         m_measures[field].merge(result.measures[field]);
         if (m_plans[field].transform == ELVIS_TRANSFORM_NONE) {

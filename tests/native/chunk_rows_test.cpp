@@ -129,14 +129,30 @@ TEST_CASE("HDF5 reads rows that were packed here, wherever a block of them begin
     for (double& number : after) {
         number = 2 * number + 1;
     }
+    const bool is_packed_before = GENERATE(false, true);
+    // 0: in order, 1: the other way round, 2: each second one first.
+    const unsigned order = GENERATE(0u, 1u, 2u);
+    CAPTURE(is_packed_before, order);
+    std::vector<std::uint64_t> firsts;
+    for (std::uint64_t first = 0; first < n_rows; first += block) {
+        firsts.push_back(first);
+    }
+    if (order == 1) {
+        std::ranges::reverse(firsts);
+    } else if (order == 2) {
+        std::ranges::stable_partition(firsts, [&](std::uint64_t first) { return first / block % 2 == 0; });
+    }
+    h5::OpenChunk open;
     for (std::uint64_t step = 0; step < 2; ++step) {
-        for (std::uint64_t first = 0; first < n_rows; first += block) {
+        for (const std::uint64_t first : firsts) {
             const std::uint64_t count = std::min(block, n_rows - first);
-            h5::write_chunk_rows(file.dataset(), {step, first, 0}, count, 1,
-                                 after.data() + (step * n_rows + first) * numbers_a_row, H5T_NATIVE_DOUBLE,
-                                 {file.path(), "rows"});
+            const double* const rows = after.data() + (step * n_rows + first) * numbers_a_row;
+            h5::write_chunk_rows(
+                file.dataset(), {step, first, 0}, count, 1, rows, H5T_NATIVE_DOUBLE, {file.path(), "rows"}, open,
+                is_packed_before ? h5::pack_chunk_rows(file.dataset(), {step, first, 0}, count, 1, rows) : h5::PackedChunks{});
         }
     }
+    h5::write_open_chunk(file.dataset(), 1, H5T_NATIVE_DOUBLE, {file.path(), "rows"}, open);
     CHECK(file.read_by_hdf5() == after);
     std::vector<double> numbers(n_rows * numbers_a_row);
     REQUIRE(h5::read_chunk_rows(file.dataset(), {1, 0, 0}, n_rows, 1, numbers.data()));
@@ -148,9 +164,10 @@ TEST_CASE("Rows that are packed here take little more room than HDF5 needs for t
     const ChunkedFile by_hdf5({true, true, true}, {1, n_rows, numbers_a_row}),
         here({true, true, true}, {1, n_rows, numbers_a_row});
     const std::vector<double> numbers = here.read_by_hdf5();
+    h5::OpenChunk open;
     for (std::uint64_t step = 0; step < 2; ++step) {
         h5::write_chunk_rows(here.dataset(), {step, 0, 0}, n_rows, 1, numbers.data() + step * n_rows * numbers_a_row,
-                             H5T_NATIVE_DOUBLE, {here.path(), "rows"});
+                             H5T_NATIVE_DOUBLE, {here.path(), "rows"}, open);
     }
     CHECK(here.read_by_hdf5() == numbers);
     CHECK(here.packed_bytes() < by_hdf5.packed_bytes() / 4 * 5);

@@ -8,6 +8,8 @@
 #include <core/convert/projection/field_plan.hpp>
 #include <core/convert/topology/topology.hpp>
 
+#include <elvis/native/volume_file.hpp>
+
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +24,9 @@ struct BlockResult {
     std::vector<std::vector<double>> fields;
     /** Of each field: values at the points of all faces, [(element * n_components + component) * n_points + point]. */
     std::vector<std::vector<double>> at_faces;
+    /** Geometry and fields as they will lie in the file, or nothing. */
+    native::PackedRows packed_geometry;
+    std::vector<native::PackedRows> packed_fields;
 
     double largest_distance = 0;
     std::vector<FieldMeasure> measures;

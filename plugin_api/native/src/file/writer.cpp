@@ -64,6 +64,10 @@ struct Writer::Impl {
     /** By field, then class. */
     std::vector<std::vector<Handle>> coefficients;
     Handle faces;
+    /** Of each dataset of rows. */
+    std::vector<h5::OpenChunk> open_geometry;
+    std::vector<std::vector<h5::OpenChunk>> open_coefficients;
+    h5::OpenChunk open_faces;
     std::vector<Coverage> written_geometry;
     std::vector<Coverage> written_numbers;
     /** By field, class and time step. */
@@ -98,6 +102,7 @@ struct Writer::Impl {
     void create_fields();
     std::vector<Space> spaces_of(std::size_t field) const;
     void check_complete() const;
+    void write_open_chunks();
     void reopen_coefficients(std::size_t field);
     void write_extrema(std::size_t field);
 };
@@ -136,6 +141,7 @@ void Writer::Impl::create_file() {
 
 void Writer::Impl::create_classes() {
     const Handle classes = h5::create_group(file, "classes", place.child("classes"));
+    open_geometry.resize(description.classes.size());
     written_geometry.resize(description.classes.size());
     written_numbers.resize(description.classes.size());
     number_is_used.resize(description.n_elements());
@@ -166,6 +172,7 @@ void Writer::Impl::create_fields() {
         h5::write_attribute(group, "n_components", field.n_components, here);
         h5::write_text(group, "transform", format::name_of(format::transforms, field.transform), here);
         coefficients.emplace_back();
+        open_coefficients.emplace_back(description.classes.size());
         written_coefficients.emplace_back(description.classes.size(), std::vector<Coverage>(description.times.size()));
         searches.emplace_back();
         if (field.transform == Transform::none) {
@@ -192,6 +199,19 @@ std::vector<Space> Writer::Impl::spaces_of(std::size_t field) const {
         spaces.push_back(element_class.fields.at(field));
     }
     return spaces;
+}
+
+void Writer::Impl::write_open_chunks() {
+    for (std::size_t element_class = 0; element_class < geometry.size(); ++element_class) {
+        h5::write_open_chunk(geometry[element_class], 0, H5T_NATIVE_DOUBLE, place, open_geometry[element_class]);
+        for (std::size_t field = 0; field < coefficients.size(); ++field) {
+            h5::write_open_chunk(coefficients[field][element_class], 1, H5T_NATIVE_DOUBLE, place,
+                                 open_coefficients[field][element_class]);
+        }
+    }
+    if (faces.is_valid()) {
+        h5::write_open_chunk(faces, 0, H5T_NATIVE_INT64, place, open_faces);
+    }
 }
 
 /**
@@ -281,24 +301,38 @@ Writer::~Writer() = default;
 Writer::Writer(Writer&&) noexcept = default;
 Writer& Writer::operator=(Writer&&) noexcept = default;
 
+PackedRows Writer::pack_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                                 std::span<const double> coefficients) const {
+    assert(coefficients.size() == count * 3 * n_modes(m_impl->description.classes.at(element_class).geometry));
+    return h5::pack_chunk_rows(m_impl->geometry[element_class], {first, 0, 0}, count, 0, coefficients.data());
+}
+
 void Writer::write_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
-                            std::span<const double> coefficients) {
+                            std::span<const double> coefficients, const PackedRows& packed) {
     assert(coefficients.size() == count * 3 * n_modes(m_impl->description.classes.at(element_class).geometry));
     h5::write_chunk_rows(m_impl->geometry[element_class], {first, 0, 0}, count, 0, coefficients.data(), H5T_NATIVE_DOUBLE,
-                         m_impl->place);
+                         m_impl->place, m_impl->open_geometry[element_class], packed);
     const h5::Lock guard;
     m_impl->written_geometry[element_class].add(first, count);
 }
 
+PackedRows Writer::pack_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
+                              std::uint64_t count, std::span<const double> coefficients) const {
+    assert(coefficients.size() == count * m_impl->description.fields.at(field).n_components *
+                                      n_modes(m_impl->description.classes.at(element_class).fields[field]));
+    return h5::pack_chunk_rows(m_impl->coefficients[field][element_class], {time_step, first, 0, 0}, count, 1,
+                               coefficients.data());
+}
+
 void Writer::write_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
-                         std::uint64_t count, std::span<const double> coefficients) {
+                         std::uint64_t count, std::span<const double> coefficients, const PackedRows& packed) {
     assert(coefficients.size() == count * m_impl->description.fields[field].n_components *
                                       n_modes(m_impl->description.classes.at(element_class).fields.at(field)));
     if (m_impl->description.fields[field].transform == Transform::none) {
         m_impl->searches[field].at(time_step).add(element_class, first, count, coefficients);
     }
     h5::write_chunk_rows(m_impl->coefficients[field][element_class], {time_step, first, 0, 0}, count, 1, coefficients.data(),
-                         H5T_NATIVE_DOUBLE, m_impl->place);
+                         H5T_NATIVE_DOUBLE, m_impl->place, m_impl->open_coefficients[field][element_class], packed);
     const h5::Lock guard;
     m_impl->written_coefficients[field][element_class].at(time_step).add(first, count);
 }
@@ -330,7 +364,7 @@ void Writer::write_faces(std::uint64_t first, std::uint64_t count, std::span<con
         }
         rows.insert(rows.end(), {face.element, face.neighbour, face.local_face, face.neighbour_local_face, face.group});
     }
-    h5::write_chunk_rows(m_impl->faces, {first, 0}, count, 0, rows.data(), H5T_NATIVE_INT64, m_impl->place);
+    h5::write_chunk_rows(m_impl->faces, {first, 0}, count, 0, rows.data(), H5T_NATIVE_INT64, m_impl->place, m_impl->open_faces);
     const h5::Lock guard;
     m_impl->written_faces.add(first, count);
 }
@@ -357,6 +391,7 @@ void Writer::commit() {
         throw FileError(m_impl->path, "cannot be written: " + problem);
     }
     m_impl->check_complete();
+    m_impl->write_open_chunks();
     const Description& description = m_impl->description;
     {
         const h5::Lock guard;

@@ -56,6 +56,11 @@ public:
         return block;
     }
 
+    bool has(const BlockKey& key) {
+        const std::lock_guard lock(m_mutex);
+        return m_entries.contains(key);
+    }
+
     void clear() {
         const std::lock_guard lock(m_mutex);
         m_order.clear();

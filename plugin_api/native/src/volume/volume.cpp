@@ -13,6 +13,8 @@ using native::Transform;
 
 /** Elements in a block that evaluation reads at once: small enough for a single probe, large enough for a scan. */
 constexpr std::uint64_t elements_per_block = 64;
+/** That are read ahead where elements are asked for one after the other: enough for whole chunks of a file. */
+constexpr std::uint64_t blocks_ahead = 16;
 /** 256 MB of doubles. */
 constexpr std::size_t cache_numbers = std::size_t{1} << 25;
 
@@ -175,9 +177,18 @@ std::vector<double> Volume::read_field(std::size_t field, std::size_t time_step,
 Volume::Coefficients Volume::element_geometry(Place place) const {
     const std::uint64_t block = place.local / elements_per_block;
     const std::uint64_t first = block * elements_per_block;
-    const std::uint64_t count = std::min(elements_per_block, description().classes[place.element_class].n_elements - first);
-    const auto numbers =
-        m_cache.get({-1, 0, place.element_class, block}, [&] { return read_geometry(place.element_class, first, count); });
+    const std::uint64_t n_left = description().classes[place.element_class].n_elements - first;
+    const std::uint64_t count = std::min(elements_per_block, n_left);
+    const BlockKey key{-1, 0, place.element_class, block};
+    const auto read = [&] {
+        const bool is_scan = block > 0 && m_cache.has({-1, 0, place.element_class, block - 1});
+        const std::uint64_t n = is_scan ? std::min(blocks_ahead * elements_per_block, n_left) : count;
+        std::vector<double> coefficients =
+            is_scan ? kept_geometry(place.element_class, first, n) : read_geometry(place.element_class, first, n);
+        coefficients.resize(coefficients.size() / n * count);
+        return coefficients;
+    };
+    const auto numbers = m_cache.get(key, read);
     const std::size_t size = numbers->size() / count;
     return {numbers, std::span(*numbers).subspan((place.local - first) * size, size)};
 }

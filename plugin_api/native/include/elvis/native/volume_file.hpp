@@ -10,6 +10,7 @@
 
 #include <elvis/native/volume_source.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -45,6 +46,9 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
+/** Rows of a block of elements as they will lie in the file; see Writer::pack_geometry. */
+using PackedRows = std::vector<std::vector<std::byte>>;
+
 /**
  * Writes to a temporary file beside the target; `commit` renames it into place. Destroyed without commit, it leaves nothing.
  * Blocks may come in any order, each element once; `commit` refuses a volume with unwritten blocks. The extrema of fields
@@ -57,10 +61,20 @@ public:
     Writer(Writer&&) noexcept;
     Writer& operator=(Writer&&) noexcept;
 
+    /**
+     * What takes longest of writing a block, compressing it, done before: any threads may do so at once, also while another one
+     * writes. The result goes to the function below, with the same block.
+     */
+    PackedRows pack_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
+                             std::span<const double> coefficients) const;
+    PackedRows pack_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
+                          std::uint64_t count, std::span<const double> coefficients) const;
+
+    /** Compresses what is not in `packed`. Blocks that follow one another take less time. */
     void write_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
-                        std::span<const double> coefficients);
+                        std::span<const double> coefficients, const PackedRows& packed = {});
     void write_field(std::size_t field, std::size_t time_step, std::size_t element_class, std::uint64_t first,
-                     std::uint64_t count, std::span<const double> coefficients);
+                     std::uint64_t count, std::span<const double> coefficients, const PackedRows& packed = {});
     void write_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count,
                        std::span<const std::int64_t> numbers);
     void write_faces(std::uint64_t first, std::uint64_t count, std::span<const Face> faces);
