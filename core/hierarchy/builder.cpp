@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <future>
 #include <limits>
+#include <thread>
+#include <utility>
 
 namespace elvis {
 namespace {
@@ -12,23 +15,30 @@ constexpr std::uint32_t n_bins = 16;
 /** Below this many items a second thread costs more than it gains. */
 constexpr std::size_t parallel_items = 1u << 15u;
 
-struct Bounds {
-    std::array<float, 3> lower{std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity(),
-                               std::numeric_limits<float>::infinity()};
-    std::array<float, 3> upper{-std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(),
-                               -std::numeric_limits<float>::infinity()};
+/** Three coordinates, and one that nobody looks at: a processor handles four at once. */
+using Corner [[gnu::vector_size(16)]] = float;
 
-    void include(const std::array<float, 3>& low, const std::array<float, 3>& high) {
-        for (std::size_t i = 0; i < 3; ++i) {
-            lower[i] = std::min(lower[i], low[i]);
-            upper[i] = std::max(upper[i], high[i]);
-        }
+Corner corner(const float* numbers) {
+    Corner result;
+    std::memcpy(&result, numbers, sizeof result);
+    return result;
+}
+Corner lower_of(const HierarchyItem& item) { return corner(item.lower.data()); }
+Corner upper_of(const HierarchyItem& item) { return corner(item.upper.data()); }
+
+struct Bounds {
+    Corner lower = Corner{} + std::numeric_limits<float>::infinity();
+    Corner upper = Corner{} - std::numeric_limits<float>::infinity();
+
+    void include(const Corner& low, const Corner& high) {
+        lower = low < lower ? low : lower;
+        upper = upper < high ? high : upper;
     }
     void include(const Bounds& other) { include(other.lower, other.upper); }
     /** Half the surface; what the heuristic compares is the same for half and whole. */
     float area() const {
-        const float x = upper[0] - lower[0], y = upper[1] - lower[1], z = upper[2] - lower[2];
-        return x * y + y * z + z * x;
+        const Corner size = upper - lower;
+        return size[0] * size[1] + size[1] * size[2] + size[2] * size[0];
     }
 };
 
@@ -97,13 +107,13 @@ public:
         const auto items = m_items.subspan(first, count);
         Bounds bounds, centroids;
         for (const HierarchyItem& item : items) {
-            bounds.include(item.lower, item.upper);
-            const std::array<float, 3> centre{centroid(item, 0), centroid(item, 1), centroid(item, 2)};
-            centroids.include(centre, centre);
+            const Corner lower = lower_of(item), upper = upper_of(item);
+            bounds.include(lower, upper);
+            centroids.include(lower + upper, lower + upper);
         }
         HierarchyNode& out = m_nodes[node];
-        out.lower = bounds.lower;
-        out.upper = bounds.upper;
+        std::memcpy(out.lower.data(), &bounds.lower, sizeof out.lower);
+        std::memcpy(out.upper.data(), &bounds.upper, sizeof out.upper);
         if (count == 1) {
             out.child = items[0].index;
             out.n_items = 1;
@@ -134,6 +144,9 @@ private:
         const auto levels = static_cast<std::uint32_t>(std::bit_width(items.size() - 1));
         Split split;
         if (depth + levels < Hierarchy::max_depth) {
+            if (items.size() == 2) {
+                return order(items, centroids);
+            }
             split = find_split(items, centroids);
         }
         if (split.first_right_bin == 0) {
@@ -143,6 +156,19 @@ private:
             return split.binning.bin(item) < split.first_right_bin;
         });
         return static_cast<std::size_t>(middle - items.begin());
+    }
+
+    /** Of two items, what find_split and halve come to: half of all nodes have two. */
+    static std::size_t order(std::span<HierarchyItem> items, const Bounds& centroids) {
+        const Corner size = centroids.upper - centroids.lower;
+        std::size_t axis = 0;
+        while (axis < 3 && !(size[axis] > 0)) {
+            ++axis;
+        }
+        if (axis < 3 && centroid(items[1], axis) < centroid(items[0], axis)) {
+            std::swap(items[0], items[1]);
+        }
+        return 1;
     }
 
     static Split find_split(std::span<const HierarchyItem> items, const Bounds& centroids) {
@@ -160,7 +186,7 @@ private:
                     continue;
                 }
                 Bin& bin = bins[axis][binnings[axis].bin(item)];
-                bin.bounds.include(item.lower, item.upper);
+                bin.bounds.include(lower_of(item), upper_of(item));
                 ++bin.n_items;
             }
         }
@@ -199,7 +225,7 @@ std::vector<HierarchyNode> build_hierarchy(std::vector<HierarchyItem>& items) {
         return {};
     }
     std::vector<HierarchyNode> nodes(2 * items.size() - 1);
-    Builder(items, nodes).build(0, 0, items.size(), 1, 0, 4);
+    Builder(items, nodes).build(0, 0, items.size(), 1, 0, std::max(4u, 2 * std::thread::hardware_concurrency()));
     return nodes;
 }
 

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <span>
 #include <thread>
@@ -26,6 +27,8 @@ namespace {
 
 /** Elements that are linearized at once, between two looks at the wish to stop. */
 constexpr std::uint64_t block = 16384;
+/** That a thread looks at before it takes others. */
+constexpr std::uint64_t elements_a_thread = 1024;
 /** In reference coordinates: how deep in its own element a sample lies, and in the other one has to. More than coordinates in
  * single precision are off. */
 constexpr double sample_depth = 4e-4, least_depth = 1e-4;
@@ -92,6 +95,14 @@ struct SampledClass {
 /** An element, and a point that it may hold. */
 using Candidate = std::pair<std::uint32_t, Vector3>;
 
+/** Of the element that a thread looks at, and their positions, and which elements may hold them. */
+struct Samples {
+    std::vector<double> xi, positions;
+    std::vector<std::uint32_t> found;
+    std::vector<Candidate> candidates;
+    std::vector<Vector3> points;
+};
+
 class Search {
 public:
     Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
@@ -104,11 +115,12 @@ private:
     void linearize(const ClassInfo& info, std::uint64_t first, std::uint64_t count);
     void look_at_links(std::uint64_t element, elvis_shape shape, std::span<const std::uint32_t> links);
     void look_at_faces(const SampledClass& in, bool of_all);
-    void look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links);
+    void look_at_faces(const SampledClass& in, std::uint64_t local, bool of_all, Samples& samples);
+    void look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links, Samples& samples);
     bool holds(std::uint64_t element, std::span<const Vector3> points) const;
     bool holds(std::uint64_t element, elvis_shape shape, const Vector3& start, const Vector3& point) const;
     elvis_shape shape_of(std::uint64_t element) const;
-    void check(std::uint64_t element) const;
+    bool is_marked(std::uint64_t element) { return std::atomic_ref(m_is_marked[element]).load(std::memory_order_relaxed) != 0; }
     void mark(std::uint64_t one, std::uint64_t other);
 
     const RuntimeVolume& m_volume;
@@ -121,19 +133,15 @@ private:
     /** Of a block of elements, and its first one. */
     std::vector<Jacobian> m_jacobians;
     std::uint64_t m_first_linearized = 0;
-    std::vector<bool> m_is_marked;
-    bool m_has_any = false;
-    /** Of the element that is looked at: samples and their positions, and which elements may hold them. */
-    std::vector<double> m_xi, m_positions;
-    std::vector<std::uint32_t> m_found;
-    std::vector<Candidate> m_candidates;
-    std::vector<Vector3> m_points;
+    /** Written by several threads. */
+    std::vector<std::uint8_t> m_is_marked;
+    std::atomic<bool> m_has_any = false;
 };
 
 Search::Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
                const TaskControl* control)
     : m_volume(volume), m_background(background), m_control(control), m_hierarchies(hierarchies),
-      m_centroids(volume.n_elements()), m_is_marked(volume.n_elements(), false) {
+      m_centroids(volume.n_elements()), m_is_marked(volume.n_elements(), 0) {
     std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
     for (std::size_t index = 0; index < links.size(); ++index) {
         SampledClass sampled{volume.classes()[index], std::move(links[index]), {}};
@@ -155,7 +163,7 @@ std::vector<std::uint64_t> Search::find() {
     }
     std::vector<std::uint64_t> elements;
     for (std::uint64_t element = 0; element < m_is_marked.size(); ++element) {
-        if (m_is_marked[element]) {
+        if (is_marked(element)) {
             elements.push_back(element);
         }
     }
@@ -163,7 +171,6 @@ std::vector<std::uint64_t> Search::find() {
 }
 
 void Search::linearize(const ClassInfo& info, std::uint64_t first, std::uint64_t count) {
-    constexpr std::uint64_t elements_a_thread = 1024;
     const Vector3 centroid = reference_centroid(info.shape);
     m_first_linearized = first;
     m_jacobians.resize(count);
@@ -192,56 +199,68 @@ void Search::look_at_links(std::uint64_t element, elvis_shape shape, std::span<c
 }
 
 void Search::look_at_faces(const SampledClass& in, bool of_all) {
-    for (std::uint64_t local = 0; local < in.info.n_elements; ++local) {
-        const std::uint64_t element = in.info.first_element + local;
-        check(element);
-        if (!of_all && local % block == 0) {
-            linearize(in.info, element, std::min(block, in.info.n_elements - local));
+    for (std::uint64_t first = 0; first < in.info.n_elements; first += block) {
+        if (m_control) {
+            m_control->check();
         }
-        const auto links = std::span(in.links).subspan(links_an_element * local, in.faces.size());
-        m_xi.clear();
-        for (std::size_t face = 0; face < in.faces.size(); ++face) {
-            if (of_all || links[face] == no_link) {
-                m_xi.insert(m_xi.end(), in.faces[face].begin(), in.faces[face].end());
+        const std::uint64_t count = std::min(block, in.info.n_elements - first);
+        if (!of_all) {
+            linearize(in.info, in.info.first_element + first, count);
+        }
+        in_parts(m_background, count, elements_a_thread, [&](std::uint64_t from, std::uint64_t n) {
+            Samples samples;
+            for (std::uint64_t local = first + from; local < first + from + n; ++local) {
+                look_at_faces(in, local, of_all, samples);
             }
-        }
-        if (of_all) {
-            const Vector3 centroid = reference_centroid(in.info.shape);
-            m_xi.insert(m_xi.end(), centroid.begin(), centroid.end());
-        } else {
-            look_at_links(element, in.info.shape, links);
-        }
-        if (!m_xi.empty()) {
-            look_at_samples(element, links);
-        }
+        });
     }
 }
 
-void Search::look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links) {
-    m_positions.resize(m_xi.size());
-    m_volume.evaluate_mapping(element, m_xi, m_positions, {});
-    m_candidates.clear();
-    for (std::size_t i = 0; i < m_positions.size(); i += 3) {
-        const Vector3 point{m_positions[i], m_positions[i + 1], m_positions[i + 2]};
+void Search::look_at_faces(const SampledClass& in, std::uint64_t local, bool of_all, Samples& samples) {
+    const std::uint64_t element = in.info.first_element + local;
+    const auto links = std::span(in.links).subspan(links_an_element * local, in.faces.size());
+    samples.xi.clear();
+    for (std::size_t face = 0; face < in.faces.size(); ++face) {
+        if (of_all || links[face] == no_link) {
+            samples.xi.insert(samples.xi.end(), in.faces[face].begin(), in.faces[face].end());
+        }
+    }
+    if (of_all) {
+        const Vector3 centroid = reference_centroid(in.info.shape);
+        samples.xi.insert(samples.xi.end(), centroid.begin(), centroid.end());
+    } else {
+        look_at_links(element, in.info.shape, links);
+    }
+    if (!samples.xi.empty()) {
+        look_at_samples(element, links, samples);
+    }
+}
+
+void Search::look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links, Samples& samples) {
+    samples.positions.resize(samples.xi.size());
+    m_volume.evaluate_mapping(element, samples.xi, samples.positions, {});
+    samples.candidates.clear();
+    for (std::size_t i = 0; i < samples.positions.size(); i += 3) {
+        const Vector3 point{samples.positions[i], samples.positions[i + 1], samples.positions[i + 2]};
         for (std::size_t index = 0; index < m_classes.size(); ++index) {
-            m_found.clear();
-            m_hierarchies[index]->find(point, 0, m_found);
-            for (const std::uint32_t local : m_found) {
+            samples.found.clear();
+            m_hierarchies[index]->find(point, 0, samples.found);
+            for (const std::uint32_t local : samples.found) {
                 const auto other = static_cast<std::uint32_t>(m_classes[index].info.first_element + local);
                 if (other != element && std::ranges::find(links, other) == links.end()) {
-                    m_candidates.emplace_back(other, point);
+                    samples.candidates.emplace_back(other, point);
                 }
             }
         }
     }
-    std::ranges::stable_sort(m_candidates, {}, &Candidate::first);
-    for (auto at = m_candidates.begin(); at != m_candidates.end();) {
+    std::ranges::stable_sort(samples.candidates, {}, &Candidate::first);
+    for (auto at = samples.candidates.begin(); at != samples.candidates.end();) {
         const std::uint32_t other = at->first;
-        m_points.clear();
-        for (; at != m_candidates.end() && at->first == other; ++at) {
-            m_points.push_back(at->second);
+        samples.points.clear();
+        for (; at != samples.candidates.end() && at->first == other; ++at) {
+            samples.points.push_back(at->second);
         }
-        if (!(m_is_marked[element] && m_is_marked[other]) && holds(other, m_points)) {
+        if (!(is_marked(element) && is_marked(other)) && holds(other, samples.points)) {
             mark(element, other);
         }
     }
@@ -287,13 +306,12 @@ elvis_shape Search::shape_of(std::uint64_t element) const {
     return std::ranges::find_if(m_classes, holds_it)->info.shape;
 }
 
-void Search::check(std::uint64_t element) const {
-    if (m_control && element % block == 0) {
-        m_control->check();
+void Search::mark(std::uint64_t one, std::uint64_t other) {
+    for (const std::uint64_t element : {one, other}) {
+        std::atomic_ref(m_is_marked[element]).store(1, std::memory_order_relaxed);
     }
+    m_has_any = true;
 }
-
-void Search::mark(std::uint64_t one, std::uint64_t other) { m_is_marked[one] = m_is_marked[other] = m_has_any = true; }
 
 } // namespace
 

@@ -85,11 +85,11 @@ bool DeviceVolume::has_capability(std::uint32_t element_class, std::uint32_t cap
 void DeviceVolume::read_bounds(const std::optional<std::array<double, 6>>& bounds_of_whole) {
     const Clock::time_point start = Clock::now();
     const std::uint64_t n_elements = m_volume.n_elements();
-    std::vector<double> boxes(6 * n_elements);
+    m_boxes.resize(6 * n_elements);
     in_parts(
         m_device.background(), n_elements, block_elements,
         [&](std::uint64_t first, std::uint64_t count) {
-            m_volume.bounds(first, count, std::span<double>(boxes).subspan(6 * first, 6 * count));
+            m_volume.bounds(first, count, std::span<double>(m_boxes).subspan(6 * first, 6 * count));
         },
         [&] { check_tasks(m_device, m_control); });
     std::fill_n(m_bounds.begin(), 3, std::numeric_limits<double>::infinity());
@@ -97,7 +97,7 @@ void DeviceVolume::read_bounds(const std::optional<std::array<double, 6>>& bound
     m_origins.resize(3 * n_elements);
     for (std::uint64_t element = 0; element < n_elements; ++element) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double lower = boxes[6 * element + axis], upper = boxes[6 * element + 3 + axis];
+            const double lower = m_boxes[6 * element + axis], upper = m_boxes[6 * element + 3 + axis];
             m_bounds[axis] = std::min(m_bounds[axis], lower);
             m_bounds[axis + 3] = std::max(m_bounds[axis + 3], upper);
             m_origins[3 * element + axis] = exact_in_float(0.5 * (lower + upper));
@@ -108,18 +108,18 @@ void DeviceVolume::read_bounds(const std::optional<std::array<double, 6>>& bound
         m_centre[axis] = exact_in_float(0.5 * (m_bounds[axis] + m_bounds[axis + 3]));
     }
     for (std::uint32_t element_class = 0; element_class < m_volume.classes().size(); ++element_class) {
-        build_class(element_class, boxes);
+        build_class(element_class);
     }
     m_hierarchy_milliseconds = milliseconds_since(start);
 }
 
-void DeviceVolume::build_class(std::uint32_t element_class, const std::vector<double>& boxes) {
+void DeviceVolume::build_class(std::uint32_t element_class) {
     const ClassInfo& info = m_volume.classes()[element_class];
     ClassData data;
     data.snippet = m_volume.snippet(element_class);
     if (info.n_elements > 0) {
         data.hierarchy =
-            Hierarchy(std::span<const double>(boxes).subspan(6 * info.first_element, 6 * info.n_elements), m_centre);
+            Hierarchy(std::span<const double>(m_boxes).subspan(6 * info.first_element, 6 * info.n_elements), m_centre);
         const std::span<const HierarchyNode> nodes = data.hierarchy.nodes();
         data.nodes = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, nodes.size(), node_size);
         data.nodes->write_uints(0, node_words(nodes));
@@ -180,6 +180,7 @@ void DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const st
 void DeviceVolume::select(const FieldSelection& selection) {
     assert(!selection.slots.empty());
     const Clock::time_point start = Clock::now();
+    m_boxes = {};
     m_time_step = selection.time_step;
     m_expression = selection.expression;
     m_is_own_boundary = selection.is_own_boundary;

@@ -53,6 +53,8 @@ public:
                  const std::optional<std::array<double, 6>>& bounds_of_whole = {});
 
     const std::array<double, 6>& bounds() const { return m_bounds; }
+    /** Of each element, six numbers, until something is first selected; then none. */
+    const std::vector<double>& boxes() const { return m_boxes; }
     /** What the hierarchies' bounds are relative to; exact in single precision. */
     const Vector3& centre() const { return m_centre; }
     Precision precision() const { return m_precision; }
@@ -150,7 +152,7 @@ private:
     };
 
     void read_bounds(const std::optional<std::array<double, 6>>& bounds_of_whole);
-    void build_class(std::uint32_t element_class, const std::vector<double>& boxes);
+    void build_class(std::uint32_t element_class);
     void write_elements();
     bool provide(const FieldSlot& wanted, Slot& slot);
     bool provide(std::uint32_t index, const Slot& slot, PluginBuffer& buffer);
@@ -165,6 +167,7 @@ private:
     Precision m_precision;
     const TaskControl* m_control;
     std::array<double, 6> m_bounds{};
+    std::vector<double> m_boxes;
     Vector3 m_centre{};
     /** Three numbers an element, exact in single precision. */
     std::vector<double> m_origins;

@@ -33,7 +33,8 @@ void VolumeRanges::forget_fields(std::optional<std::uint32_t> only) {
 
 const std::vector<Vector3>& VolumeRanges::outline() {
     if (m_outline.empty()) {
-        m_outline = outline_points(m_volume, m_device.background());
+        m_outline =
+            m_data.boxes().empty() ? outline_points(m_volume, m_device.background()) : outline_points(m_volume, m_data.boxes());
     }
     return m_outline;
 }

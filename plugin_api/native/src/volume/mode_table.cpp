@@ -12,10 +12,21 @@ constexpr std::size_t most_tables = 8;
 } // namespace
 
 ModeTables::Table ModeTables::get(const native::Space& space, std::span<const double> xi) {
+    const auto is_wanted = [&](const Entry& entry) { return entry.space == space && std::ranges::equal(entry.xi, xi); };
+    // Tables of all volumes are alike. Most elements are asked about the same points as the one before: then threads do not
+    // wait for one another.
+    thread_local Entry last;
+    if (!last.table || !is_wanted(last)) {
+        last = {space, {xi.begin(), xi.end()}, get_from_all(space, xi, is_wanted)};
+    }
+    return last.table;
+}
+
+template <class IsWanted>
+ModeTables::Table ModeTables::get_from_all(const native::Space& space, std::span<const double> xi, const IsWanted& is_wanted) {
     {
         const std::lock_guard lock(m_mutex);
-        const auto found = std::ranges::find_if(
-            m_entries, [&](const Entry& entry) { return entry.space == space && std::ranges::equal(entry.xi, xi); });
+        const auto found = std::ranges::find_if(m_entries, is_wanted);
         if (found != m_entries.end()) {
             m_entries.splice(m_entries.begin(), m_entries, found);
             return found->table;

@@ -35,6 +35,9 @@ private:
         Table table;
     };
 
+    template <class IsWanted>
+    Table get_from_all(const native::Space& space, std::span<const double> xi, const IsWanted& is_wanted);
+
     std::mutex m_mutex;
     /** The last used comes first. */
     std::list<Entry> m_entries;
