@@ -20,15 +20,17 @@ struct LayeredPicture::Setting {
 
 LayeredPicture::LayeredPicture(const Device& device, Precision precision)
     : m_device(device), m_precision(precision), m_color_pass(device, precision), m_merge_pass(device, precision),
-      m_occlusion_pass(device, precision), m_flags_pass(device, precision) {}
+      m_occlusion_pass(device, precision), m_flags_pass(device, precision), m_late(device) {}
 
 void LayeredPicture::begin(const FrameRequest& request, const PixelRows& rows, Frame& frame) {
     m_request = &request;
     m_frame = &frame;
+    m_late.begin();
     if (!m_layer || m_layer->width != request.width || m_layer->height != request.height) {
         m_layer.reset();
         m_other_values.reset();
         m_layer = std::make_unique<Layer>(m_device, m_precision, request.width, request.height);
+        m_layer->late = &m_late;
     }
     m_is_alone = request.surfaces.size() == 1 && !request.surfaces[0].is_see_through() && !request.volume;
     m_layer->rows = m_is_alone ? PixelRows{0, request.height} : rows;
@@ -49,6 +51,7 @@ void LayeredPicture::provide(const Surface& surface) {
     }
     if ((!surface.conditions.empty() || surface.lic) && !m_other_values) {
         m_other_values = std::make_unique<Layer>(m_device, m_precision, m_layer->width, m_layer->height);
+        m_other_values->late = &m_late;
     }
 }
 
@@ -185,11 +188,19 @@ void LayeredPicture::finish() {
     }
 }
 
-void LayeredPicture::settle() const {
+std::vector<Buffer::Read> LayeredPicture::settle() {
     m_flags_pass.settle(drawn());
-    const auto words = Buffer::read_words({&m_flags_pass.counts(), &m_color_pass.special()});
-    FlagsPass::add(words[0], m_frame->counts);
-    m_frame->special_values = m_color_pass.special_values(words[1]);
+    m_flag_words.resize(m_flags_pass.counts().bytes() / sizeof(std::uint32_t));
+    m_special_words.resize(m_color_pass.special().bytes() / sizeof(std::uint32_t));
+    return {{&m_flags_pass.counts(), std::as_writable_bytes(std::span(m_flag_words))},
+            {&m_color_pass.special(), std::as_writable_bytes(std::span(m_special_words))},
+            m_late.read()};
+}
+
+void LayeredPicture::count() {
+    FlagsPass::add(m_flag_words, m_frame->counts);
+    m_frame->special_values = m_color_pass.special_values(m_special_words);
+    m_late.take_all();
 }
 
 } // namespace elvis

@@ -35,8 +35,10 @@ public:
     /** All surfaces are drawn, and no volume. */
     void finish();
 
-    /** Of all that is drawn: flags as callers know them, counts of pixels by them, and the frame's special values. */
-    void settle() const;
+    /** Of all that is drawn: flags as callers know them. Counts of pixels by them, and special values, are to be read. */
+    std::vector<Buffer::Read> settle();
+    /** Then: into the frame, with all counts that came late. */
+    void count();
 
     const Layer& drawn() const { return m_is_alone ? *m_layer : m_merge_pass.picture(); }
 
@@ -67,6 +69,8 @@ private:
     std::unique_ptr<Layer> m_other_values;
     std::unique_ptr<ConditionPass> m_condition_pass;
     std::unique_ptr<LicPass> m_lic_pass;
+    LateCounts m_late;
+    std::vector<std::uint32_t> m_flag_words, m_special_words;
     const FrameRequest* m_request = nullptr;
     Frame* m_frame = nullptr;
     /** A single surface that hides what is behind it needs no merging. */

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -212,18 +213,36 @@ Frame Renderer::render(const FrameRequest& asked, const TaskControl* control) {
     if (!request.volume) {
         impl.picture.finish();
     }
-    impl.picture.settle();
-    frame.render_milliseconds += timer.wall_milliseconds();
-    frame.device_milliseconds += timer.milliseconds();
+    std::vector<Buffer::Read> reads = impl.picture.settle();
+    const auto take_time = [&] {
+        frame.render_milliseconds += timer.wall_milliseconds();
+        frame.device_milliseconds += timer.milliseconds();
+    };
+    // Where nothing is pending, reading is not the device's work.
+    const bool is_pending = impl.device.collects_submissions();
+    if (!is_pending) {
+        take_time();
+    }
+    std::optional<LayerRead> layer;
+    if (request.for_screen) {
+        frame.screen.resize(sizeof(std::uint32_t) * frame.counts.pixels);
+        reads.push_back({&impl.screen_pass().draw(impl.picture.drawn()), std::as_writable_bytes(std::span(frame.screen))});
+    } else {
+        layer.emplace(impl.picture.drawn(), impl.data.precision(), request.with_buffers);
+        std::ranges::copy(layer->reads(), std::back_inserter(reads));
+    }
+    Buffer::read_together(reads);
+    if (is_pending) {
+        take_time();
+    }
+    impl.picture.count();
     impl.times.upload_milliseconds = impl.data.upload_milliseconds();
     for (std::size_t index = 0; index < frame.is_met.size(); ++index) {
         frame.is_met[index] = frame.is_met[index] || frame.special_values[index].is_shown;
     }
     frame.is_met = met_as_asked(asked, impl.volume, std::move(frame.is_met));
-    if (request.for_screen) {
-        frame.screen = impl.screen_pass().read(impl.picture.drawn());
-    } else {
-        read_frame(impl.picture.drawn(), impl.data.precision(), facts, request.with_buffers, frame);
+    if (layer) {
+        layer->fill(facts, frame);
     }
     const DeviceWork after = impl.device.work();
     frame.submissions = after.submissions - before.submissions;

@@ -75,8 +75,11 @@ const Kernel& ComposedKernel::kernel() const {
     return *m_kernel;
 }
 
+std::string ComposedKernel::about_snippets() const {
+    return m_snippets.empty() ? "" : " [the kernel evaluates the plugin's " + m_snippets + "; ";
+}
+
 template <class Call> void ComposedKernel::watched(const Call& call) const {
-    const std::string evaluates = m_snippets.empty() ? "" : " [the kernel evaluates the plugin's " + m_snippets + "; ";
     try {
         call();
     } catch (const Cancelled&) {
@@ -86,32 +89,55 @@ template <class Call> void ComposedKernel::watched(const Call& call) const {
         if (m_snippets.empty()) {
             throw;
         }
-        throw Error(error.place(), error.cause() + evaluates + "elvis check-plugin looks for endless loops there]");
+        throw Error(error.place(), error.cause() + about_snippets() + "elvis check-plugin looks for endless loops there]");
     }
-    if (m_watch && m_watch->is_cut_short.read_items<std::uint32_t>(1).front() != 0) {
+}
+
+void ComposedKernel::add_watch(std::vector<Buffer::Read>& reads, std::uint32_t& is_cut_short) const {
+    if (m_watch) {
+        reads.push_back({&m_watch->is_cut_short, std::as_writable_bytes(std::span(&is_cut_short, 1))});
+    }
+}
+
+void ComposedKernel::check_watch() const {
+    if (m_watch) {
+        check_watch(m_watch->is_cut_short.read_items<std::uint32_t>(1).front());
+    }
+}
+
+void ComposedKernel::check_watch(std::uint32_t is_cut_short) const {
+    if (is_cut_short != 0) {
         m_watch->is_cut_short.fill(0);
         throw Error("kernel '" + m_name + "'",
                     "the driver has ended its loops early: nothing of it is to be trusted" +
                         (m_snippets.empty() ? ""
-                                            : evaluates + "drivers may grant all loops of an invocation "
-                                                          "65535 iterations, which high orders use up]"));
+                                            : about_snippets() + "drivers may grant all loops of an invocation "
+                                                                 "65535 iterations, which high orders use up]"));
     }
+}
+
+void ComposedKernel::dispatch_unchecked(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+                                        std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
+    watched([&] { kernel().dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
 }
 
 void ComposedKernel::dispatch(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                               std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const {
-    watched([&] { kernel().dispatch(bound(bindings), push_constants, groups_x, groups_y, groups_z); });
+    dispatch_unchecked(bindings, push_constants, groups_x, groups_y, groups_z);
+    check_watch();
 }
 
 void ComposedKernel::dispatch_from(const std::array<std::uint32_t, 2>& first, std::span<const Buffer* const> bindings,
                                    std::span<const std::byte> push_constants, std::uint32_t groups_x,
                                    std::uint32_t groups_y) const {
     watched([&] { kernel().dispatch_from({first[0], first[1], 0}, bound(bindings), push_constants, {groups_x, groups_y, 1}); });
+    check_watch();
 }
 
 void ComposedKernel::dispatch_indirect(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
                                        const Buffer& size) const {
     watched([&] { kernel().dispatch_indirect(bound(bindings), push_constants, size); });
+    check_watch();
 }
 
 std::vector<BoundBuffer> ComposedKernel::bound(std::span<const Buffer* const> bindings) const {

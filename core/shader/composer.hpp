@@ -128,6 +128,15 @@ private:
     std::vector<BoundBuffer> bound(std::span<const Buffer* const> bindings) const;
     /** Dispatches by a call; an Error that it throws, but for Cancelled, is given the names of the snippets. */
     template <class Call> void watched(const Call& call) const;
+    friend class KernelResults;
+    void dispatch_unchecked(std::span<const Buffer* const> bindings, std::span<const std::byte> push_constants,
+                            std::uint32_t groups_x, std::uint32_t groups_y, std::uint32_t groups_z) const;
+    /** What is not 0 once a loop was ended early: where it is to be read to, if it is watched. */
+    void add_watch(std::vector<Buffer::Read>& reads, std::uint32_t& is_cut_short) const;
+    /** Throws if a loop was. */
+    void check_watch(std::uint32_t is_cut_short) const;
+    void check_watch() const;
+    std::string about_snippets() const;
 
     const Kernel& kernel() const;
 

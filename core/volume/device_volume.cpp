@@ -220,6 +220,13 @@ void DeviceVolume::write_elements() {
                 std::make_unique<ElementWriter>(m_device, m_volume, element_class, instance(element_class), m_precision);
         }
     }
+    KernelResults started;
+    for (const std::unique_ptr<ElementWriter>& writer : writers) {
+        if (writer) {
+            writer->start(started);
+        }
+    }
+    started.read();
     for (std::uint32_t element_class = 0; element_class < m_classes.size(); ++element_class) {
         if (!writers[element_class]) {
             continue;
@@ -230,7 +237,7 @@ void DeviceVolume::write_elements() {
         const ElementBoxes said =
             said_boxes(data.hierarchy, info.n_elements,
                        std::span<const double>(m_origins).subspan(3 * info.first_element, n_origins), m_centre);
-        data.curvatures = writers[element_class]->write(said, *data.elements);
+        data.curvatures = writers[element_class]->write(said, *data.elements, started);
         std::vector<double> numbers;
         numbers.reserve(2 * info.n_elements);
         for (std::uint64_t element = 0; element < info.n_elements; ++element) {

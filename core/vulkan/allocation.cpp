@@ -143,16 +143,29 @@ void Allocation::write(std::uint64_t offset, std::uint64_t bytes, std::uint64_t 
         produce(0, {m_mapped + offset, static_cast<std::size_t>(bytes)});
         return;
     }
-    const std::uint64_t piece = Device::Impl::staging_bytes / granularity * granularity;
-    assert(piece > 0);
     const std::lock_guard lock(impl.staging_mutex);
-    const Staging& staging = impl.use_staging();
-    for (std::uint64_t done = 0; done < bytes; done += piece) {
-        const VkBufferCopy region{0, offset + done, std::min(piece, bytes - done)};
-        produce(done, {staging.mapped, static_cast<std::size_t>(region.size)});
-        impl.queue->record(CommandQueue::copies,
-                           [&](VkCommandBuffer commands) { vkCmdCopyBuffer(commands, staging.buffer, m_buffer, 1, &region); });
-        impl.queue->finish(); // The staging buffer is used again.
+    Staging& staging = impl.use_staging();
+    for (std::uint64_t done = 0; done < bytes;) {
+        if (impl.queue->is_done(staging.used_in)) {
+            staging.used = 0;
+        }
+        const std::uint64_t room = (Device::Impl::staging_bytes - staging.used) / granularity * granularity;
+        // What is on its way stays where it is until there is no room beside it.
+        if (room < std::min(bytes - done, std::max(granularity, Device::Impl::staging_bytes / 4)) && staging.used > 0) {
+            impl.queue->finish();
+            staging.used = 0;
+            continue;
+        }
+        assert(room > 0);
+        const VkBufferCopy region{staging.used, offset + done, std::min(room, bytes - done)};
+        produce(done, {staging.mapped + region.srcOffset, static_cast<std::size_t>(region.size)});
+        impl.queue->record(CommandQueue::copies, [&](VkCommandBuffer commands) {
+            vkCmdCopyBuffer(commands, staging.buffer, m_buffer, 1, &region);
+            staging.used_in = impl.queue->submission();
+        });
+        done += region.size;
+        constexpr std::uint64_t alignment = 16; // Of all numbers that are produced.
+        staging.used += (region.size + alignment - 1) / alignment * alignment;
     }
 }
 

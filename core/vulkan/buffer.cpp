@@ -34,7 +34,19 @@ void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) const 
 
 void Buffer::read(std::uint64_t offset, std::span<std::byte> data) const { m_impl->allocation.read(offset, data); }
 
-void Buffer::read_together(std::initializer_list<Read> reads) {
+std::vector<std::uint32_t> Buffer::read_if_any(std::size_t n_behind, std::optional<Read> also) const {
+    // 256 KiB take no longer than a wait.
+    constexpr std::size_t few = 1u << 16;
+    std::vector<std::uint32_t> words(n_behind < few ? 1 + n_behind : 1);
+    std::vector<Read> reads{{this, std::as_writable_bytes(std::span(words))}};
+    if (also) {
+        reads.push_back(*also);
+    }
+    read_together(reads);
+    return words[0] == 0 || n_behind < few ? words : read_items<std::uint32_t>(1 + n_behind);
+}
+
+void Buffer::read_together(std::span<const Read> reads) {
     std::vector<Allocation::Read> parts;
     for (const Read& read : reads) {
         parts.push_back({&read.from->m_impl->allocation, read.data});

@@ -8,6 +8,8 @@
 
 #include <cstddef>
 #include <initializer_list>
+#include <memory>
+#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -46,8 +48,15 @@ public:
         const Buffer* from;
         std::span<std::byte> data;
     };
+    /**
+     * The first word, and, if it is not 0, `n_behind` behind it, else perhaps none: with one wait if they are few. `also` is
+     * read on this occasion.
+     */
+    std::vector<std::uint32_t> read_if_any(std::size_t n_behind, std::optional<Read> also = {}) const;
+
     /** The beginnings of buffers of one device, with as few waits as the device's memory asks for. */
-    static void read_together(std::initializer_list<Read> reads);
+    static void read_together(std::span<const Read> reads);
+    static void read_together(std::initializer_list<Read> reads) { read_together(std::span(reads.begin(), reads.size())); }
     /** All of small buffers of one device, likewise. */
     static std::vector<std::vector<std::uint32_t>> read_words(std::initializer_list<const Buffer*> buffers);
 

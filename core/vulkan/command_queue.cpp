@@ -106,6 +106,7 @@ void CommandQueue::submit_and_wait(const std::string& last_name) {
     check_vulkan(vkQueueSubmit(m_queue, 1, &info, m_fence), m_place, "submitting work");
     ++n_host_waits;
     wait();
+    m_n_done = n_submissions.load();
     take_times(last_name, milliseconds_since(start));
     check_vulkan(vkResetFences(m_device, 1, &m_fence), m_place, "resetting a fence");
     do_what_waits();

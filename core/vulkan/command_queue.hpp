@@ -52,6 +52,9 @@ public:
     /** Grows with each submission. What was used in one may be used anew in the next. To be asked inside of record(). */
     std::uint64_t submission() const { return n_submissions; }
 
+    /** Whether what was recorded in a submission has been done. */
+    bool is_done(std::uint64_t submission) const { return m_n_done > submission; }
+
     /** Does it once all that was recorded so far has been done: at once if nothing is pending. It must not throw. */
     void when_done(std::function<void()> what) noexcept;
 
@@ -86,6 +89,7 @@ private:
     VkFence m_fence = VK_NULL_HANDLE;
     std::mutex m_mutex;
     std::atomic<bool> m_is_recording{false};
+    std::atomic<std::uint64_t> m_n_done{0};
     std::vector<std::function<void()>> m_waiting;
 };
 

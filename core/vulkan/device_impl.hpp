@@ -42,6 +42,8 @@ struct Staging {
     VkBuffer buffer = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;
     std::byte* mapped = nullptr;
+    /** So many bytes are on their way to the device, the last of them in this submission (CommandQueue::submission). */
+    std::uint64_t used = 0, used_in = 0;
 };
 
 struct Device::Impl {

@@ -76,6 +76,33 @@ TEST_CASE("Buffers are read together, mapped or staged, with as few waits as the
     CHECK(device.validation_messages() == std::vector<std::string>{});
 }
 
+TEST_CASE("What is written to several buffers goes there together, until the staging buffer is full") {
+    DeviceOptions options = validated(true);
+    options.submissions = Submissions::collected;
+    const Device device(options);
+    // Larger than what commands carry themselves; 50 MB in all, of which two thirds fit.
+    constexpr std::size_t n_buffers = 50, n = 250003;
+    std::vector<Buffer> buffers;
+    std::vector<std::vector<std::uint32_t>> written;
+    for (std::size_t i = 0; i < n_buffers; ++i) {
+        buffers.emplace_back(device, n * 4);
+        written.emplace_back(n);
+        std::iota(written.back().begin(), written.back().end(), static_cast<std::uint32_t>(i) << 24u);
+    }
+    const std::uint64_t before = device.work().submissions;
+    for (std::size_t i = 0; i < n_buffers; ++i) {
+        buffers[i].write_items<std::uint32_t>(written[i]);
+    }
+    for (std::size_t i = 0; i < n_buffers; ++i) {
+        CHECK(buffers[i].read_items<std::uint32_t>(n) == written[i]);
+    }
+    CHECK(device.work().submissions - before <= 2 + n_buffers);
+    CHECK(buffers[0].read_if_any(0) == std::vector<std::uint32_t>{0});
+    CHECK(buffers[1].read_if_any(2) == std::vector<std::uint32_t>{1u << 24u, (1u << 24u) + 1, (1u << 24u) + 2});
+    CHECK(buffers[1].read_if_any(n - 1) == written[1]);
+    CHECK(device.validation_messages() == std::vector<std::string>{});
+}
+
 TEST_CASE("Memory is counted while buffers live") {
     const Device device;
     const std::uint64_t before = device.allocated_bytes();

@@ -134,17 +134,32 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                 kernels.provide(m_device, what).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count);
             });
         };
-        const TileList::Ranges ranges = m_listed.read();
-        draw_tiles(Draws::pixels, ranges.shallow);
+        const bool is_indirect = m_listed.is_indirect();
+        if (is_indirect) {
+            parameters.first = TileList::n_header_words;
+            kernels.provide(m_device, Draws::pixels)
+                .dispatch_indirect(bindings, std::as_bytes(std::span(&parameters, 1)), m_listed.groups());
+        }
+        std::array<std::uint32_t, TileList::n_header_words> header{};
+        std::array<std::uint32_t, n_counts> found{};
+        const Buffer::Read of_counts{&m_counts, std::as_writable_bytes(std::span(found))};
+        Buffer::read_together({{&listed, std::as_writable_bytes(std::span(header))}, of_counts});
+        const TileList::Ranges ranges = m_listed.ranges(header);
+        if (!is_indirect) {
+            draw_tiles(Draws::pixels, ranges.shallow);
+        }
         draw_tiles(Draws::deep_pixels, ranges.deep);
-        const std::uint32_t n_careful = m_counts.read_items<std::uint32_t>(n_counts)[n_pass_counts];
+        if (!is_indirect || ranges.deep.count > 0) {
+            Buffer::read_together({of_counts});
+        }
+        const std::uint32_t n_careful = found[n_pass_counts];
         in_batches(n_careful, items_a_dispatch(m_device, careful_pixels_a_dispatch, group_size),
                    [&](std::uint32_t first, std::uint32_t count) {
                        parameters.first = first;
                        kernels.provide(m_device, Draws::careful)
                            .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
                    });
-        add_pass_counts(m_counts, counts);
+        add_pass_counts(layer, m_counts, counts);
         counts.careful_pixels += n_careful;
     }
 }

@@ -128,7 +128,7 @@ void CutPlanePass::draw(const CutPlaneGeometry& geometry, std::uint32_t surface,
     for (const ClassKernels& kernels : m_kernels) {
         m_open.search(kernels.element_class, open);
     }
-    add_pass_counts(m_counts, counts);
+    add_pass_counts(target.layer, m_counts, counts);
 }
 
 void CutPlanePass::draw_lines(const ShownComponent& component, const LineRequest& lines, const LayerTarget& target,
@@ -137,7 +137,7 @@ void CutPlanePass::draw_lines(const ShownComponent& component, const LineRequest
     for (const ClassKernels& kernels : m_kernels) {
         draw_lines(kernels, component, lines, target, counts);
     }
-    add_pass_counts(m_counts, counts);
+    add_pass_counts(target.layer, m_counts, counts);
 }
 
 void CutPlanePass::draw_outside(const CutPlaneGeometry& geometry, std::uint32_t surface, const LayerTarget& target) {
@@ -177,19 +177,25 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
                                                     open,
                                                     wanted_reaches};
     const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * m_tile_height));
-    const TileList::Range range = m_listed.read().shallow;
-    in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-        const PixelsParameters pixels{layer.width,
-                                      layer.height,
-                                      range.first + first,
-                                      surface,
-                                      component.first(),
-                                      component.end(),
-                                      component.is_discontinuous ? 1u : 0u,
-                                      component.value_tolerance,
-                                      n_isovalues};
-        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
-    });
+    PixelsParameters pixels{layer.width,
+                            layer.height,
+                            TileList::n_header_words,
+                            surface,
+                            component.first(),
+                            component.end(),
+                            component.is_discontinuous ? 1u : 0u,
+                            component.value_tolerance,
+                            n_isovalues};
+    const auto push_constants = std::as_bytes(std::span(&pixels, 1));
+    if (m_listed.is_indirect()) {
+        kernels.pixels->dispatch_indirect(bindings, push_constants, m_listed.groups());
+    } else {
+        const TileList::Range range = m_listed.read().shallow;
+        in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+            pixels.first_listed = range.first + first;
+            kernels.pixels->dispatch(bindings, push_constants, count);
+        });
+    }
     m_others.compare(kernels.element_class, component, layer, counts);
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <string>
 
 namespace elvis {
@@ -81,11 +82,14 @@ void OpenPoints::provide_kernels(std::uint32_t element_class) {
 
 void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
     OfClass& of_class = m_classes[element_class];
-    if (of_class.reaches) {
-        of_class.reaches->provide();
-    }
     const Buffer& list = *of_class.list;
-    const std::uint32_t n_listed = list.read_items<std::uint32_t>(1)[0];
+    std::uint32_t n_listed = 0;
+    const Buffer::Read of_list{&list, std::as_writable_bytes(std::span(&n_listed, 1))};
+    if (of_class.reaches) {
+        of_class.reaches->provide(of_list);
+    } else {
+        Buffer::read_together({of_list});
+    }
     if (n_listed == 0) {
         return;
     }
@@ -95,7 +99,8 @@ void OpenPoints::search(std::uint32_t element_class, const Surface& surface) {
     do {
         const Buffer& sifted = empty_list(m_sifted, list.bytes());
         dispatch(*of_class.sift, sifted, list, n_listed, of_class, surface);
-        const std::uint32_t n_sifted = sifted.read_items<std::uint32_t>(1)[0];
+        // Beyond the list kernels do nothing, which takes less time than to ask how long it is.
+        const std::uint32_t n_sifted = m_device.collects_submissions() ? n_listed : sifted.read_items<std::uint32_t>(1)[0];
         dispatch(*of_class.search, surface.counts, sifted, n_sifted, of_class, surface);
     } while (of_class.octants->provide());
 }

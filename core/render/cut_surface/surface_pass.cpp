@@ -134,14 +134,20 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
     const auto [open, wanted_reaches] = m_open.begin(kernels.element_class, layer.n_pixels());
     const std::array<const Buffer*, 11> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,  &*m_hits,
                                                     &others,  &places,        &listed,   open,      wanted_reaches};
-    const TileList::Range range = m_listed.read().shallow;
     const std::uint32_t tiles_a_dispatch =
         items_a_dispatch(m_device, pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height));
     PointParameters pixels(picture.target, picture.surface, picture.component, static_cast<float>(picture.most_error));
-    in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
-        pixels.first = range.first + first;
-        kernels.pixels->dispatch(bindings, std::as_bytes(std::span(&pixels, 1)), count);
-    });
+    const auto push_constants = std::as_bytes(std::span(&pixels, 1));
+    if (m_listed.is_indirect()) {
+        pixels.first = TileList::n_header_words;
+        kernels.pixels->dispatch_indirect(bindings, push_constants, m_listed.groups());
+    } else {
+        const TileList::Range range = m_listed.read().shallow;
+        in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
+            pixels.first = range.first + first;
+            kernels.pixels->dispatch(bindings, push_constants, count);
+        });
+    }
     m_others.compare(kernels.element_class, picture.component, layer, counts);
 }
 
@@ -189,7 +195,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
         // Rays that meet more crossings outside of elements than are followed.
         counts.work_limit_pixels += round + 1 == most_rounds ? n_open : 0;
     }
-    add_pass_counts(m_counts, counts);
+    add_pass_counts(target.layer, m_counts, counts);
 }
 
 void SurfacePass::draw_outside(const Picture& picture) {

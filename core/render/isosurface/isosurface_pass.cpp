@@ -66,8 +66,8 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
       m_rows(rows_an_invocation(device, 4, 1)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
-      m_isovalue_set(device, volume, data), m_projection(device), m_listed(device),
-      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_isovalue_set(device, volume, data), m_projection(device), m_frame(view_buffer(device, data.precision())),
+      m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -87,6 +87,7 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
                            {"CORE_CLASS", std::to_string(index) + "u"}};
         request.bindings = buffer_bindings({.uniform = 1, .storage = 3});
         kernels.element_class = index;
+        kernels.listed.emplace(device);
         m_kernels.push_back(std::move(kernels));
     }
 }
@@ -153,29 +154,50 @@ void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t f
     }
 }
 
+/** Those of each class that see something; they are waited for together. */
+std::vector<TileList::Ranges> IsosurfacePass::list_tiles(const Layer& layer, const TileRows& wanted) {
+    const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
+    const std::uint32_t n_tiles = tiles_a_row * divided_up(layer.height, tile_height);
+    std::vector<std::array<std::uint32_t, TileList::n_header_words>> headers(m_kernels.size());
+    std::vector<Buffer::Read> reads;
+    for (std::size_t index = 0; index < m_kernels.size(); ++index) {
+        ClassKernels& kernels = m_kernels[index];
+        if (m_isovalue_set.n_octants(kernels.element_class) == 0) {
+            continue;
+        }
+        const Buffer& tiles =
+            provide_buffer(kernels.tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+        const Buffer& listed = kernels.listed->begin(n_tiles);
+        const TilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row,
+                                       static_cast<std::uint32_t>(m_values.size())};
+        const std::array<const Buffer*, 4> bindings = {&m_frame, &tiles, &listed, &*m_isovalues};
+        kernels.provide(m_device, Role::tiles, m_values.size() == 1)
+            .dispatch(bindings, std::as_bytes(std::span(&of_tiles, 1)),
+                      divided_up(of_tiles.end_tile - of_tiles.first_tile, group_size));
+        reads.push_back({&listed, std::as_writable_bytes(std::span(headers[index]))});
+    }
+    Buffer::read_together(reads);
+    std::vector<TileList::Ranges> ranges;
+    for (std::size_t index = 0; index < m_kernels.size(); ++index) {
+        ranges.push_back(m_kernels[index].listed->ranges(headers[index]));
+    }
+    return ranges;
+}
+
 void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts) {
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const std::uint32_t tile_rows = divided_up(layer.height, tile_height);
-    const std::uint32_t n_tiles = tiles_a_row * tile_rows;
     const TileRows wanted = target.tile_rows(tile_height);
-    const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
     const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * tile_height));
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
+    const std::vector<TileList::Ranges> ranges = list_tiles(layer, wanted);
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         if (m_isovalue_set.n_octants(kernels.element_class) == 0) {
             continue;
         }
         m_counts.fill(0);
-        const Buffer& listed = m_listed.begin(n_tiles);
-        const TilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row,
-                                       static_cast<std::uint32_t>(m_values.size())};
-        const std::array<const Buffer*, 4> tiles_bindings = {&m_frame, &tiles, &listed, &*m_isovalues};
-        kernels.provide(m_device, Role::tiles, m_values.size() == 1)
-            .dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)),
-                      divided_up(of_tiles.end_tile - of_tiles.first_tile, group_size));
         Parameters parameters{layer.width,
                               layer.height,
                               tiles_a_row,
@@ -187,9 +209,18 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                               target.beyond ? 1u : 0u,
                               m_round,
                               m_extent};
-        const std::array<const Buffer*, 12> bindings = {&m_frame,      &layer.samples, &layer.normals, &m_counts,
-                                                        &layer.marks,  &tiles,         &*m_isovalues,  &beyond,
-                                                        target.places, &*m_bending,    &listed,        &*m_last};
+        const std::array<const Buffer*, 12> bindings = {&m_frame,
+                                                        &layer.samples,
+                                                        &layer.normals,
+                                                        &m_counts,
+                                                        &layer.marks,
+                                                        &*kernels.tiles,
+                                                        &*m_isovalues,
+                                                        &beyond,
+                                                        target.places,
+                                                        &*m_bending,
+                                                        &kernels.listed->buffer(),
+                                                        &*m_last};
         const auto draw_tiles = [&](Role role, const TileList::Range& range) {
             in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first_listed = range.first + first;
@@ -197,14 +228,14 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                     .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / m_rows);
             });
         };
-        const TileList::Ranges ranges = m_listed.read();
-        draw_tiles(Role::pixels, ranges.shallow);
-        draw_tiles(Role::deep_pixels, ranges.deep);
-        const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-        counts.field_evaluations += found[evaluations];
-        counts.excluded_intervals += found[excluded] + found[outside];
-        counts.undecided_intervals += found[undecided];
-        counts.isosurface_crossings += found[crossings];
+        draw_tiles(Role::pixels, ranges[index].shallow);
+        draw_tiles(Role::deep_pixels, ranges[index].deep);
+        take_counts(layer, m_counts, n_counts, [&counts](std::span<const std::uint32_t> found) {
+            counts.field_evaluations += found[evaluations];
+            counts.excluded_intervals += found[excluded] + found[outside];
+            counts.undecided_intervals += found[undecided];
+            counts.isosurface_crossings += found[crossings];
+        });
     }
 }
 

@@ -49,12 +49,16 @@ private:
         /** What intervals are looked for in, and projection. */
         std::vector<FetchBuffer> octants, elements;
         std::uint32_t element_class = 0;
+        /** Kept from frame to frame: tiles with their octants, and which of them see something. */
+        std::optional<Buffer> tiles;
+        std::optional<TileList> listed;
         /** By role, and whether there is one isovalue. Compiled when first needed. */
         std::array<std::array<std::unique_ptr<ComposedKernel>, 2>, 3> kernels;
 
         const ComposedKernel& provide(const Device& device, Role role, bool has_one_isovalue);
     };
 
+    std::vector<TileList::Ranges> list_tiles(const Layer& layer, const TileRows& wanted);
     void draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
     /** Pixels that carry one of these flags, afresh; all if there are none. */
     void draw_by_projection(IsosurfaceMethod method, std::uint32_t flags, std::uint32_t first_surface,
@@ -75,12 +79,11 @@ private:
     std::uint32_t m_degree = 0;
     std::vector<ClassKernels> m_kernels;
     IsosurfaceProjection m_projection;
-    TileList m_listed;
     Buffer m_frame;
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;
     /** Kept from frame to frame. */
-    std::optional<Buffer> m_tiles, m_bending;
+    std::optional<Buffer> m_bending;
     /** What each round tells the next one of the crossings that it found (shaders/isosurface/isosurface_bindings.glsl). */
     std::optional<Buffer> m_last;
     std::uint32_t m_round = 0;

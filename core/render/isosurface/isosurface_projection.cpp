@@ -90,15 +90,16 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
                                                picture.round};
                    kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
                });
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-    counts.field_evaluations += found[evaluations];
-    counts.certified_segments += found[certified];
-    counts.verified_fits += found[verified];
-    counts.undecided_fits += found[undecided];
-    counts.isosurface_crossings += found[crossings];
-    counts.newton_failures += found[failures];
-    counts.fits += found[fits];
-    counts.fit_degrees += found[degrees];
+    take_counts(layer, m_counts, n_counts, [&counts](std::span<const std::uint32_t> found) {
+        counts.field_evaluations += found[evaluations];
+        counts.certified_segments += found[certified];
+        counts.verified_fits += found[verified];
+        counts.undecided_fits += found[undecided];
+        counts.isosurface_crossings += found[crossings];
+        counts.newton_failures += found[failures];
+        counts.fits += found[fits];
+        counts.fit_degrees += found[degrees];
+    });
     // Once, not for each class.
     counts.projected_pixels = std::max<std::uint64_t>(counts.projected_pixels, m_n_listed);
 }

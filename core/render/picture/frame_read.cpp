@@ -13,20 +13,15 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-template <class Real> void read_as(const Layer& from, const std::vector<SurfaceFacts>& facts, bool with_buffers, Frame& frame) {
-    const std::size_t n_pixels = frame.counts.pixels;
-    const std::size_t n_read = with_buffers ? n_pixels : 0;
-    std::vector<Real> colors(4 * n_pixels), normals(3 * n_read);
-    std::vector<Mark> marks(n_read);
-    std::vector<Sample<Real>> samples(n_read);
-    Buffer::read_together({{&from.colors, std::as_writable_bytes(std::span(colors))},
-                           {&from.marks, std::as_writable_bytes(std::span(marks))},
-                           {&from.samples, std::as_writable_bytes(std::span(samples))},
-                           {&from.normals, std::as_writable_bytes(std::span(normals))}});
-    frame.color.assign(colors.begin(), colors.end());
-    if (!with_buffers) {
-        return;
-    }
+template <class T> std::span<const T> as(const std::vector<std::byte>& bytes) {
+    return {reinterpret_cast<const T*>(bytes.data()), bytes.size() / sizeof(T)};
+}
+
+/** Samples, marks and normals of all pixels. */
+template <class Real>
+void fill_buffers(std::span<const Sample<Real>> samples, std::span<const Mark> marks, std::span<const Real> normals,
+                  const std::vector<SurfaceFacts>& facts, Frame& frame) {
+    const std::size_t n_pixels = marks.size();
     frame.value.assign(n_pixels, not_a_number);
     frame.depth.assign(n_pixels, not_a_number);
     frame.normal.assign(3 * n_pixels, not_a_number);
@@ -79,9 +74,28 @@ Frame background_frame(const FrameRequest& request) {
     return frame;
 }
 
-void read_frame(const Layer& from, Precision precision, const std::vector<SurfaceFacts>& facts, bool with_buffers,
-                Frame& frame) {
-    with_real(precision, [&]<class Real>(Real) { read_as<Real>(from, facts, with_buffers, frame); });
+LayerRead::LayerRead(const Layer& from, Precision precision, bool with_buffers)
+    : m_from(from), m_precision(precision), m_with_buffers(with_buffers),
+      m_colors(4 * from.n_pixels() * real_bytes(precision)) {
+    if (with_buffers) {
+        m_marks.resize(from.n_pixels() * sizeof(Mark));
+        m_samples.resize(from.n_pixels() * sample_bytes(precision));
+        m_normals.resize(3 * from.n_pixels() * real_bytes(precision));
+    }
+}
+
+std::vector<Buffer::Read> LayerRead::reads() {
+    return {{&m_from.colors, m_colors}, {&m_from.marks, m_marks}, {&m_from.samples, m_samples}, {&m_from.normals, m_normals}};
+}
+
+void LayerRead::fill(const std::vector<SurfaceFacts>& facts, Frame& frame) const {
+    with_real(m_precision, [&]<class Real>(Real) {
+        const std::span<const Real> colors = as<Real>(m_colors);
+        frame.color.assign(colors.begin(), colors.end());
+        if (m_with_buffers) {
+            fill_buffers(as<Sample<Real>>(m_samples), as<Mark>(m_marks), as<Real>(m_normals), facts, frame);
+        }
+    });
 }
 
 } // namespace elvis

@@ -4,12 +4,16 @@
  */
 #pragma once
 
+#include <core/render/device/late_counts.hpp>
 #include <core/render/frame.hpp>
 #include <core/vulkan/buffer.hpp>
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <span>
+#include <utility>
 
 namespace elvis {
 
@@ -56,6 +60,8 @@ struct Layer {
     /** Unit, towards the viewer, three numbers a pixel. Of planes the host knows it: theirs are not written. */
     Buffer normals;
     Buffer colors;
+    /** For counts that may come with the picture; null: there is none. */
+    LateCounts* late = nullptr;
 
     Layer(const Device& device, Precision precision, std::uint32_t across, std::uint32_t down)
         : width(across), height(down), rows{0, down}, samples(device, n_pixels() * sample_bytes(precision)),
@@ -102,11 +108,22 @@ struct ShownComponent {
 /** What the kernels of passes count first in their buffer: evaluations, steps of Newton's method, failures of it. */
 inline constexpr std::size_t n_pass_counts = 3;
 
-inline void add_pass_counts(const Buffer& from, FrameCounts& counts) {
-    const std::vector<std::uint32_t> found = from.read_items<std::uint32_t>(n_pass_counts);
-    counts.field_evaluations += found[0];
-    counts.newton_iterations += found[1];
-    counts.newton_failures += found[2];
+/** Calls `take` with the first words of a buffer as they are now: late, if the layer's picture allows it. */
+inline void take_counts(const Layer& layer, const Buffer& from, std::size_t n_words, LateCounts::Take take) {
+    if (layer.late != nullptr) {
+        layer.late->add(from, n_words, std::move(take));
+    } else {
+        take(from.read_items<std::uint32_t>(n_words));
+    }
+}
+
+/** `counts` lives as long as the picture is drawn. */
+inline void add_pass_counts(const Layer& layer, const Buffer& from, FrameCounts& counts) {
+    take_counts(layer, from, n_pass_counts, [&counts](std::span<const std::uint32_t> found) {
+        counts.field_evaluations += found[0];
+        counts.newton_iterations += found[1];
+        counts.newton_failures += found[2];
+    });
 }
 
 } // namespace elvis

@@ -69,13 +69,12 @@ ScreenPass::ScreenPass(const Device& device, Precision precision)
     write_reals(m_least, precision, least_numbers(precision));
 }
 
-std::vector<std::uint8_t> ScreenPass::read(const Layer& layer) {
+const Buffer& ScreenPass::draw(const Layer& layer) {
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const std::size_t n_bytes = n_channels * layer.n_pixels();
-    const Buffer& pixels = provide_buffer(m_pixels, m_device, n_bytes);
+    const Buffer& pixels = provide_buffer(m_pixels, m_device, n_channels * layer.n_pixels());
     const ScreenParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(grey)};
     dispatch_pixels(m_kernel, {&layer.colors, &m_least, &pixels}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
-    return pixels.read_items<std::uint8_t>(n_bytes);
+    return pixels;
 }
 
 } // namespace elvis

@@ -26,8 +26,8 @@ class ScreenPass {
 public:
     ScreenPass(const Device& device, Precision precision);
 
-    /** Frame::screen of the layer's colours. */
-    std::vector<std::uint8_t> read(const Layer& layer);
+    /** Makes Frame::screen of the layer's colours; it is to be read from there. */
+    const Buffer& draw(const Layer& layer);
 
 private:
     const Device& m_device;

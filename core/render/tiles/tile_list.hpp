@@ -8,9 +8,11 @@
 #include <core/vulkan/device.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace elvis {
@@ -50,12 +52,20 @@ public:
     const Buffer& begin(std::uint32_t n_tiles);
     /** What the list holds since begin(). */
     Ranges read() const;
+    /** For Buffer::read_together, and what was read then. */
+    static constexpr std::size_t n_header_words = 2;
+    Ranges ranges(std::span<const std::uint32_t, n_header_words> header) const;
+
+    /** Whether the first range can be drawn before the host knows how many it has: it begins with `n_header_words`. */
+    bool is_indirect() const;
+    /** Of Kernel::dispatch_indirect(), with a work group for each tile of that range along x, and so many along y. */
+    const Buffer& groups(std::uint32_t groups_y = 1);
     const Buffer& buffer() const { return *m_buffer; }
 
 private:
     const Device& m_device;
     std::uint32_t m_n_tiles = 0;
-    std::optional<Buffer> m_buffer;
+    std::optional<Buffer> m_buffer, m_groups;
 };
 
 } // namespace elvis

@@ -1,5 +1,7 @@
 #include <core/hierarchy/hierarchy.hpp>
+#include <core/shader/kernel_results.hpp>
 #include <core/volume/element/element_octants.hpp>
+#include <core/volume/isosurface/octants_ahead.hpp>
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
@@ -69,11 +71,11 @@ void ElementOctants::begin() {
 }
 
 bool ElementOctants::provide() {
-    const std::uint32_t n_asked = m_asked.read_items<std::uint32_t>(1)[0];
-    if (n_asked == 0) {
+    const std::vector<std::uint32_t> asked = m_asked.read_if_any(m_info.n_elements);
+    if (asked[0] == 0) {
         return false;
     }
-    std::vector<std::uint32_t> elements = m_asked.read_items<std::uint32_t>(n_asked, 1);
+    std::vector<std::uint32_t> elements(asked.begin() + 1, asked.begin() + 1 + asked[0]);
     // Kernels ask in any order; pictures are to be the same each time.
     std::sort(elements.begin(), elements.end());
     const std::vector<std::uint32_t> words = divide(elements);
@@ -101,12 +103,13 @@ bool ElementOctants::provide() {
 
 /** The octants of elements, as the kernel gives them. Level by level, as long as there is room for more. */
 std::vector<std::uint32_t> ElementOctants::divide(std::span<const std::uint32_t> elements) const {
+    OctantsAhead ahead(m_device, m_info.shape, [this](std::span<const std::uint32_t> asked) { return evaluate(asked); });
     std::vector<std::uint32_t> done, wanted;
     for (const std::uint32_t element : elements) {
         add_octants(wanted, element, 0, m_info.shape);
     }
     for (std::uint32_t level = 1; !wanted.empty(); ++level) {
-        const std::vector<std::uint32_t> words = evaluate(wanted);
+        const std::vector<std::uint32_t> words = ahead(wanted);
         const std::size_t n_octants = words.size() / octant_words;
         std::size_t n_bent = 0;
         for (std::size_t i = 0; i < n_octants; ++i) {
@@ -139,9 +142,11 @@ std::vector<std::uint32_t> ElementOctants::evaluate(std::span<const std::uint32_
     for (std::size_t first = 0; first < n_octants; first += at_once) {
         const auto count = static_cast<std::uint32_t>(std::min(at_once, n_octants - first));
         input.write_items(elements_and_codes.subspan(2 * first, 2 * std::size_t{count}));
-        m_kernel.dispatch(bindings, std::as_bytes(std::span(&count, 1)), (count + group_size - 1) / group_size);
-        const auto computed = output.read_items<std::uint32_t>(std::size_t{count} * octant_words);
-        words.insert(words.end(), computed.begin(), computed.end());
+        KernelResults results;
+        results.dispatch(m_kernel, bindings, std::as_bytes(std::span(&count, 1)), (count + group_size - 1) / group_size, output,
+                         std::size_t{count} * octant_words);
+        results.read();
+        words.insert(words.end(), results[0].begin(), results[0].end());
     }
     return words;
 }

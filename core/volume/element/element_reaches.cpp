@@ -1,3 +1,4 @@
+#include <core/shader/kernel_results.hpp>
 #include <core/volume/element/element_reaches.hpp>
 
 #include <algorithm>
@@ -61,14 +62,14 @@ void ElementReaches::begin() {
     }
 }
 
-void ElementReaches::provide() {
-    if (m_wanted.read_items<std::uint32_t>(1)[0] == 0) {
+void ElementReaches::provide(const Buffer::Read& also) {
+    const std::vector<std::uint32_t> is_wanted = m_wanted.read_if_any(m_n_elements, also);
+    if (is_wanted[0] == 0) {
         return;
     }
-    const std::vector<std::uint32_t> is_wanted = m_wanted.read_items<std::uint32_t>(m_n_elements, 1);
     std::vector<std::uint32_t> elements;
     for (std::uint32_t element = 0; element < m_n_elements; ++element) {
-        if (is_wanted[element] != 0 && !m_is_known[element]) {
+        if (is_wanted[1 + element] != 0 && !m_is_known[element]) {
             elements.push_back(element);
             m_is_known[element] = true;
         }
@@ -89,8 +90,11 @@ void ElementReaches::bound(std::span<const std::uint32_t> elements) {
     for (std::size_t first = 0; first < elements.size(); first += at_once) {
         const std::span<const std::uint32_t> wanted = elements.subspan(first, std::min(at_once, elements.size() - first));
         input.write_items(wanted);
-        m_kernel->dispatch(bindings, {}, static_cast<std::uint32_t>(wanted.size()));
-        const auto words = output.read_items<std::uint32_t>(wanted.size() * record_size);
+        KernelResults results;
+        results.dispatch(*m_kernel, bindings, {}, static_cast<std::uint32_t>(wanted.size()), output,
+                         wanted.size() * record_size);
+        results.read();
+        const std::vector<std::uint32_t>& words = results[0];
         for (std::size_t i = 0; i < wanted.size(); ++i) {
             m_records.write_uints(wanted[i], std::span(words).subspan(record_size * i, record_size));
         }

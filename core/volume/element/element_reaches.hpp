@@ -28,8 +28,8 @@ public:
 
     /** Forgets all if elements have another shape now. */
     void begin();
-    /** Bounds the reaches that kernels want. */
-    void provide();
+    /** Bounds the reaches that kernels want. `also` is read on this occasion. */
+    void provide(const Buffer::Read& also);
 
     /** `core_reaches`. Valid as long as this. */
     FetchBuffer records() const { return {"core_reaches", &m_records}; }

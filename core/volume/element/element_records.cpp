@@ -115,24 +115,39 @@ ElementWriter::ElementWriter(const Device& device, const RuntimeVolume& volume, 
                              const SnippetInstance& instance, Precision precision)
     : m_device(device), m_volume(volume), m_info(volume.classes()[element_class]),
       m_proven(proven_curvatures(device, volume, m_info, m_curvatures.bends)),
-      m_kernel(device, linearize_request(element_class, instance, precision, m_proven)) {}
+      m_kernel(device, linearize_request(element_class, instance, precision, m_proven)),
+      m_output(device, n_at(0) * words_an_element * sizeof(std::uint32_t)), m_input(device, n_at(0) * sizeof(float)) {}
 
-ElementCurvatures ElementWriter::write(const ElementBoxes& said, RecordBuffer& records) {
-    const std::uint64_t largest = std::min(block, m_info.n_elements);
-    const Buffer output(m_device, largest * words_an_element * sizeof(std::uint32_t));
-    const Buffer input(m_device, largest * sizeof(float));
-    const std::array<const Buffer*, 2> bindings = {&output, &input};
+/** Elements of one dispatch from `first` on. */
+std::uint64_t ElementWriter::n_at(std::uint64_t first) const { return std::min(block, m_info.n_elements - first); }
 
+void ElementWriter::dispatch(std::uint64_t first, KernelResults& results) const {
+    const auto count = static_cast<std::uint32_t>(n_at(first));
+    const Parameters parameters{static_cast<std::uint32_t>(first), count};
+    m_input.write_items(std::span<const float>(m_proven).subspan(first, count));
+    const std::array<const Buffer*, 2> bindings = {&m_output, &m_input};
+    results.dispatch(m_kernel, bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size,
+                     m_output, std::size_t{count} * words_an_element);
+}
+
+void ElementWriter::start(KernelResults& results) {
+    m_started = results.size();
+    dispatch(0, results);
+}
+
+ElementCurvatures ElementWriter::write(const ElementBoxes& said, RecordBuffer& records, const KernelResults& started) {
     m_curvatures.numbers.reserve(m_info.n_elements);
     m_curvatures.are_proven.reserve(m_info.n_elements);
     std::vector<std::int64_t> numbers;
     std::vector<std::uint32_t> words;
     for (std::uint64_t first = 0; first < m_info.n_elements; first += block) {
-        const auto count = static_cast<std::uint32_t>(std::min(block, m_info.n_elements - first));
-        const Parameters parameters{static_cast<std::uint32_t>(first), count};
-        input.write_items(std::span<const float>(m_proven).subspan(first, count));
-        m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
-        const auto computed = output.read_items<std::uint32_t>(std::size_t{count} * words_an_element);
+        const auto count = static_cast<std::uint32_t>(n_at(first));
+        KernelResults results;
+        if (first > 0) {
+            dispatch(first, results);
+            results.read();
+        }
+        const std::vector<std::uint32_t>& computed = first > 0 ? results[0] : started[m_started];
         numbers.resize(count);
         m_volume.element_numbers(m_info.first_element + first, count, numbers);
         words.clear();

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
-#include <core/shader/composer.hpp>
+#include <core/shader/kernel_results.hpp>
 #include <core/volume/element/mapping_curvature.hpp>
 #include <core/vulkan/buffer.hpp>
 
@@ -43,16 +43,23 @@ public:
     ElementWriter(const Device& device, const RuntimeVolume& volume, std::uint32_t element_class,
                   const SnippetInstance& instance, Precision precision);
 
-    /** An element that was seen outside of its box is the plugin's fault: an error. */
-    ElementCurvatures write(const ElementBoxes& said, RecordBuffer& records);
+    /** The first elements' linearizations, so that those of all classes are waited for together. */
+    void start(KernelResults& results);
+    /** With what was read of that. An element that was seen outside of its box is the plugin's fault: an error. */
+    ElementCurvatures write(const ElementBoxes& said, RecordBuffer& records, const KernelResults& started);
 
 private:
+    void dispatch(std::uint64_t first, KernelResults& results) const;
+    std::uint64_t n_at(std::uint64_t first) const;
+
     const Device& m_device;
     const RuntimeVolume& m_volume;
     const ClassInfo& m_info;
     ElementCurvatures m_curvatures;
     std::vector<float> m_proven;
     ComposedKernel m_kernel;
+    Buffer m_output, m_input;
+    std::size_t m_started = 0;
 };
 
 } // namespace elvis

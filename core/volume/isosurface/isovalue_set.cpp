@@ -5,8 +5,10 @@
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 namespace elvis {
 
@@ -145,10 +147,8 @@ void IsovalueSet::choose(std::span<const double> isovalues, const ScalarComponen
                 }
             }
         }
-        if (!of_class.chosen.empty()) {
-            make_octants(of_class, info.shape);
-        }
     }
+    make_octants();
     m_is_chosen = true;
 }
 
@@ -156,29 +156,76 @@ bool IsovalueSet::may_skip(const ModelRange& range) const {
     return m_choice.skips_by_range && (rests_on_estimates() || !range.is_estimated);
 }
 
-IsovalueSet::Octants IsovalueSet::evaluate(const ClassOctants& of_class, std::span<const std::uint32_t> elements_and_codes) {
-    Octants octants;
+void IsovalueSet::dispatch(const ClassOctants& of_class, std::span<const std::uint32_t> elements_and_codes,
+                           std::vector<std::unique_ptr<const Buffer>>& buffers, KernelResults& results) const {
+    const std::size_t count = elements_and_codes.size() / 2;
+    const auto make = [&](std::size_t bytes) {
+        return buffers.emplace_back(std::make_unique<const Buffer>(m_device, bytes)).get();
+    };
+    const Buffer* const output = make(count * octant_words * sizeof(std::uint32_t));
+    const std::array<const Buffer*, 3> bindings = {make(elements_and_codes.size_bytes()), output, make(sizeof(m_centre))};
+    bindings[0]->write_items(elements_and_codes);
+    write_reals(*bindings[2], m_precision, m_centre);
+    const OctantParameters parameters{static_cast<std::uint32_t>(count), m_component.first, m_component.end};
+    results.dispatch(*of_class.octant_kernel, bindings, std::as_bytes(std::span(&parameters, 1)),
+                     static_cast<std::uint32_t>((count + group_size - 1) / group_size), *output, count * octant_words);
+}
+
+std::vector<std::uint32_t> IsovalueSet::evaluate(const ClassOctants& of_class,
+                                                 std::span<const std::uint32_t> elements_and_codes) {
+    std::vector<std::uint32_t> octants;
     const std::size_t n_octants = elements_and_codes.size() / 2;
-    const std::size_t at_once = std::min<std::size_t>(n_octants, block);
-    const Buffer input(m_device, at_once * 2 * sizeof(std::uint32_t));
-    const Buffer output(m_device, at_once * octant_words * sizeof(std::uint32_t));
-    const Buffer centre(m_device, sizeof(m_centre));
-    write_reals(centre, m_precision, m_centre);
-    const std::array<const Buffer*, 3> bindings = {&input, &output, &centre};
-    octants.words.reserve(n_octants * octant_words);
-    for (std::size_t first = 0; first < n_octants; first += at_once) {
-        const std::size_t count = std::min(at_once, n_octants - first);
-        input.write_items(elements_and_codes.subspan(2 * first, 2 * count));
-        const OctantParameters parameters{static_cast<std::uint32_t>(count), m_component.first, m_component.end};
-        of_class.octant_kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                                         static_cast<std::uint32_t>((count + group_size - 1) / group_size));
-        const auto words = output.read_items<std::uint32_t>(count * octant_words);
-        octants.words.insert(octants.words.end(), words.begin(), words.end());
+    octants.reserve(n_octants * octant_words);
+    for (std::size_t first = 0; first < n_octants; first += block) {
+        const std::size_t count = std::min<std::size_t>(block, n_octants - first);
+        std::vector<std::unique_ptr<const Buffer>> buffers;
+        KernelResults results;
+        dispatch(of_class, elements_and_codes.subspan(2 * first, 2 * count), buffers, results);
+        results.read();
+        octants.insert(octants.end(), results[0].begin(), results[0].end());
     }
     return octants;
 }
 
-void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape) {
+/** Those with which all classes begin are waited for together. */
+void IsovalueSet::make_octants() {
+    struct Begun {
+        std::size_t index;
+        OctantsAhead ahead;
+        std::vector<std::uint32_t> first;
+    };
+    std::vector<Begun> classes;
+    std::vector<std::unique_ptr<const Buffer>> buffers;
+    KernelResults results;
+    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+        const ClassOctants& of_class = m_classes[index];
+        if (of_class.chosen.empty()) {
+            continue;
+        }
+        OctantsAhead ahead(m_device, m_volume.classes()[index].shape,
+                           [&](std::span<const std::uint32_t> asked) { return evaluate(of_class, asked); });
+        std::vector<std::uint32_t> elements;
+        for (const std::uint32_t element : of_class.chosen) {
+            elements.insert(elements.end(), {element, 0});
+        }
+        std::vector<std::uint32_t> first = ahead.with_parts(elements);
+        if (first.size() / 2 <= block) {
+            dispatch(of_class, first, buffers, results);
+        } else {
+            first.clear();
+        }
+        classes.push_back({index, std::move(ahead), std::move(first)});
+    }
+    results.read();
+    for (std::size_t n_read = 0; Begun & begun : classes) {
+        if (!begun.first.empty()) {
+            begun.ahead.keep(begun.first, results[n_read++]);
+        }
+        make_octants(m_classes[begun.index], m_volume.classes()[begun.index].shape, begun.ahead);
+    }
+}
+
+void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape, OctantsAhead& ahead) {
     // Index into what is chosen, by local element.
     std::vector<std::uint32_t> place(of_class.ranges.size());
     std::vector<std::uint32_t> wanted;
@@ -186,7 +233,7 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape) {
         place[of_class.chosen[i]] = static_cast<std::uint32_t>(i);
         wanted.insert(wanted.end(), {of_class.chosen[i], 0});
     }
-    Octants octants = evaluate(of_class, wanted);
+    Octants octants{ahead(wanted)};
     Octants done;
     for (std::uint32_t level = 0; m_choice.skips_by_range; ++level) {
         wanted.clear();
@@ -201,7 +248,7 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape) {
         if (wanted.empty() || wanted.size() / 2 > 2 * of_class.room) {
             break;
         }
-        const Octants candidates = evaluate(of_class, wanted);
+        const Octants candidates{ahead(wanted)};
         Octants divided;
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             if (!may_skip(of_class.ranges[candidates.word(i, octant_element)]) || candidates.holds_any(i, m_choice.isovalues)) {

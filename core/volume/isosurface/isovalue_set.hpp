@@ -6,8 +6,10 @@
 
 #include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/shader/kernel_results.hpp>
 #include <core/volume/device_volume.hpp>
 #include <core/volume/isosurface/linear_models.hpp>
+#include <core/volume/isosurface/octants_ahead.hpp>
 #include <core/vulkan/buffer.hpp>
 
 #include <array>
@@ -66,13 +68,17 @@ private:
         bool operator==(const Choice&) const = default;
     };
     bool may_skip(const ModelRange& range) const;
-    void make_octants(ClassOctants& of_class, elvis_shape shape);
+    void make_octants();
+    void make_octants(ClassOctants& of_class, elvis_shape shape, OctantsAhead& ahead);
     /** `place`: of local elements in what is chosen. */
     void write_octants(ClassOctants& of_class, std::span<const std::uint32_t> place, const Octants& octants);
     /** In place of a linearization, the element's box. */
     void write_box(std::uint32_t* record, const double* box) const;
     /** Models of octants, and their boxes and ranges. */
-    Octants evaluate(const ClassOctants& of_class, std::span<const std::uint32_t> elements_and_codes);
+    std::vector<std::uint32_t> evaluate(const ClassOctants& of_class, std::span<const std::uint32_t> elements_and_codes);
+    /** Of no more than one dispatch has; `buffers` live until the results are read. */
+    void dispatch(const ClassOctants& of_class, std::span<const std::uint32_t> elements_and_codes,
+                  std::vector<std::unique_ptr<const Buffer>>& buffers, KernelResults& results) const;
 
     const Device& m_device;
     const RuntimeVolume& m_volume;

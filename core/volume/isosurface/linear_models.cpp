@@ -1,3 +1,4 @@
+#include <core/shader/kernel_results.hpp>
 #include <core/volume/isosurface/linear_models.hpp>
 
 #include <algorithm>
@@ -51,17 +52,34 @@ void LinearModels::provide(const ScalarComponent& component, std::vector<std::ve
     m_component = {0, 0};
     m_is_all_estimated = true;
     std::vector<std::vector<std::uint32_t>> models(m_classes.size());
+    std::vector<std::unique_ptr<const Buffer>> outputs(m_classes.size());
+    const auto dispatch = [&](std::size_t index, std::uint64_t first, KernelResults& results) {
+        const auto count = static_cast<std::uint32_t>(std::min(block, m_volume.classes()[index].n_elements - first));
+        const std::array<const Buffer*, 1> bindings = {outputs[index].get()};
+        const Parameters parameters{static_cast<std::uint32_t>(first), count, component.first, component.end};
+        results.dispatch(*m_classes[index].kernel, bindings, std::as_bytes(std::span(&parameters, 1)),
+                         (count + group_size - 1) / group_size, *outputs[index], std::size_t{count} * record_size);
+    };
+    // The first elements of all classes together.
+    KernelResults firsts;
+    std::vector<std::size_t> with_elements;
     for (std::size_t index = 0; index < m_classes.size(); ++index) {
-        const std::uint64_t n_elements = m_volume.classes()[index].n_elements;
-        const Buffer output(m_device, std::max<std::uint64_t>(std::min(block, n_elements), 1) * record_size * sizeof(float));
-        const std::array<const Buffer*, 1> bindings = {&output};
-        for (std::uint64_t first = 0; first < n_elements; first += block) {
-            const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
-            const Parameters parameters{static_cast<std::uint32_t>(first), count, component.first, component.end};
-            m_classes[index].kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                                              (count + group_size - 1) / group_size);
-            const auto words = output.read_items<std::uint32_t>(std::size_t{count} * record_size);
-            models[index].insert(models[index].end(), words.begin(), words.end());
+        if (const std::uint64_t n_elements = m_volume.classes()[index].n_elements; n_elements > 0) {
+            outputs[index] =
+                std::make_unique<const Buffer>(m_device, std::min(block, n_elements) * record_size * sizeof(float));
+            dispatch(index, 0, firsts);
+            with_elements.push_back(index);
+        }
+    }
+    firsts.read();
+    for (std::size_t i = 0; i < with_elements.size(); ++i) {
+        const std::size_t index = with_elements[i];
+        models[index] = firsts[i];
+        for (std::uint64_t first = block; first < m_volume.classes()[index].n_elements; first += block) {
+            KernelResults results;
+            dispatch(index, first, results);
+            results.read();
+            models[index].insert(models[index].end(), results[0].begin(), results[0].end());
         }
         for (std::size_t at = estimated; at < models[index].size(); at += record_size) {
             m_is_all_estimated = m_is_all_estimated && models[index][at] != 0;

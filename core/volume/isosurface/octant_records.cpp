@@ -26,6 +26,8 @@ bool is_in_shape(elvis_shape shape, const Vector3& corner) {
 
 } // namespace
 
+bool can_divide(std::uint32_t code) { return (code & 7u) < octant_place_bits; }
+
 void add_octants(std::vector<std::uint32_t>& elements_and_codes, std::uint32_t element, std::uint32_t code, elvis_shape shape) {
     const std::uint32_t level = (code & 7u) + 1;
     const double side = 2.0 / (1u << level);

@@ -1,4 +1,4 @@
-#include <core/shader/composer.hpp>
+#include <core/shader/kernel_results.hpp>
 #include <core/volume/segments/face_cones.hpp>
 
 #include <algorithm>
@@ -37,8 +37,11 @@ std::unique_ptr<RecordBuffer> measure_face_cones(const Device& device, const Run
     for (std::uint64_t first = 0; first < n_elements; first += block) {
         const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
         const Parameters parameters{static_cast<std::uint32_t>(first), count};
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size);
-        cones->write_uints(first, output.read_items<std::uint32_t>(std::size_t{count} * words_an_element));
+        KernelResults results;
+        results.dispatch(kernel, bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size,
+                         output, std::size_t{count} * words_an_element);
+        results.read();
+        cones->write_uints(first, results[0]);
     }
     return cones;
 }

@@ -50,7 +50,8 @@ template <class Real> void check_levels(Precision precision) {
         colors.insert(colors.end(), {channel, channel, 0.5, 1});
     }
     write_reals(layer.colors, precision, colors);
-    const std::vector<std::uint8_t> shown = ScreenPass(test::device(), precision).read(layer);
+    const std::vector<std::uint8_t> shown =
+        ScreenPass(test::device(), precision).draw(layer).read_items<std::uint8_t>(4 * layer.n_pixels());
     REQUIRE(shown.size() == colors.size());
     for (std::size_t pixel = 0; pixel < channels.size(); ++pixel) {
         INFO(channels[pixel]);

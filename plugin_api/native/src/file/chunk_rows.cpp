@@ -160,6 +160,9 @@ bool read_chunk_rows(const Handle& dataset, const std::vector<hsize_t>& start, h
 PackedChunks pack_chunk_rows(const Handle& dataset, const std::vector<hsize_t>& start, hsize_t count, std::size_t row_dimension,
                              const void* data) {
     PackedChunks chunks;
+    if (count == 0) {
+        return chunks;
+    }
     const std::optional<Layout> layout = locked_layout(dataset, start.size(), row_dimension);
     assert(layout);
     if (!is_packed_here(*layout)) {
@@ -192,6 +195,9 @@ void write_open_chunk(const Handle& dataset, std::size_t row_dimension, hid_t ty
 
 void write_chunk_rows(const Handle& dataset, const std::vector<hsize_t>& start, hsize_t count, std::size_t row_dimension,
                       const void* data, hid_t type, const Place& place, OpenChunk& open, const PackedChunks& packed) {
+    if (count == 0) {
+        return;
+    }
     const std::optional<Layout> layout = locked_layout(dataset, start.size(), row_dimension);
     assert(layout);
     const hsize_t first = start[row_dimension], n_rows = layout->shape[row_dimension];
