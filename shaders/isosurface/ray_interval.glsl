@@ -88,14 +88,22 @@ void core_cut_interval_inside(core_inside g, inout core_ray_interval interval) {
 }
 #endif
 
-// What rounding makes of the field at the interval's points. A position that is off moves the field by its gradient in the world: in
-// elements whose Jacobian is nearly singular, that is far less than what the reference coordinates are off would make of its slope.
-elvis_real core_value_rounding(const core_ray_interval interval, const core_frame frame, elvis_vec3 slope) {
-    const elvis_vec3 offset = max(abs(interval.q + interval.low * interval.w), abs(interval.q + interval.high * interval.w));
+// What the field at the interval's points is off, because those are off.
+elvis_real core_value_off(const core_ray_interval interval, const core_frame frame, elvis_vec3 slope) {
+    const elvis_real linear = elvis_real(4) * CORE_ROUNDOFF * interval.radius;
+#if ELVIS_REAL_IS_DOUBLE
+    // Rounding is small as it is, and registers are few.
+    return core_model_norm1(slope) * (interval.beyond + linear);
+#else
+    // A position that is off moves the field by its gradient in the world: in elements whose Jacobian is nearly singular, that is far less
+    // than what the reference coordinates are off would make of its slope.
     const elvis_real by_position = dot(abs(core_to_world(frame, slope)), frame.position_error);
     // Of the Jacobian, relative to the element's size, and of its inverse: cofactors, and the determinant.
+    const elvis_vec3 offset = max(abs(interval.q + interval.low * interval.w), abs(interval.q + interval.high * interval.w));
     const elvis_real by_inverse = frame.conditioning * dot(abs(slope), offset + interval.way / frame.lengths);
-    return (elvis_real(1) + elvis_real(4) * interval.radius) * by_position + elvis_real(8) * CORE_ROUNDOFF * by_inverse;
+    return core_model_norm1(slope) * (interval.bent_off + linear) + (elvis_real(1) + elvis_real(4) * interval.radius) * by_position +
+           elvis_real(8) * CORE_ROUNDOFF * by_inverse;
+#endif
 }
 
 void core_interval_take_field(inout core_ray_interval interval, uint element, elvis_vec3 xi, const core_frame frame, out core_model model,
@@ -111,9 +119,7 @@ void core_interval_take_field(inout core_ray_interval interval, uint element, el
     model = core_shown_model(element, xi, region, value);
     interval.value = model.value + dot(model.slope, interval.q);
     interval.slope = dot(model.slope, interval.w);
-    interval.error = CORE_MODEL_UP * (model.remainder + core_model_norm1(model.slope) *
-                                                         (interval.bent_off + elvis_real(4) * CORE_ROUNDOFF * interval.radius)) +
-                  core_value_rounding(interval, frame, model.slope) +
+    interval.error = CORE_MODEL_UP * (model.remainder + core_value_off(interval, frame, model.slope)) +
                   elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
     interval.is_known = core_model_is_known(model);
 }

@@ -48,6 +48,24 @@ TEST_CASE("Isosurfaces of rough fields of high order are not undecided all over"
     CHECK(tally.flagged < tally.pixels / 100);
 }
 
+TEST_CASE("Isosurfaces in strongly bent tetrahedra are decided at nearly all pixels") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("torus.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "torus", "shape": "tetrahedron", "elements": [4, 2, 12], "geometry_order": 3,
+                         "order": 4, "field": "waves"})",
+                     file.path());
+    FrameRequest request = request_of_rough_field({2.6, 2.1, 1.9}, {0, 0, 0}, {0, 0, 1}, 40);
+    Surface surface = colored_surface();
+    surface.geometry = Isosurfaces{.values = {0.1}};
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    std::cout << "torus of tetrahedra: " << tally.flagged << " of " << tally.pixels << " flagged, " << tally.hits << " hits\n";
+    CHECK(tally.hits > tally.pixels / 10);
+    CHECK(tally.far + tally.near == 0);
+    // Was a fifth of them.
+    CHECK(tally.flagged < tally.pixels / 50);
+}
+
 TEST_CASE("A narrow peak between the samples of a step is found") {
     FrameRequest request = request_of_rough_field({-1.275316879459872, 0.11743809500417267, -3.139820822399736},
                                                   {-0.12538921728558483, 0.0036675741902809297, 0.14033107231184935},
