@@ -4,7 +4,7 @@
 
 #include <core/base/counted.hpp>
 #include <core/export/vtu_export.hpp>
-#include <core/session/open_volume.hpp>
+#include <core/session/volume/open_volume.hpp>
 
 #include <cstdio>
 #include <memory>

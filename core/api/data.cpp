@@ -2,9 +2,9 @@
 
 #include <core/base/counted.hpp>
 #include <core/scene/frame_request.hpp>
-#include <core/session/describe_volume.hpp>
-#include <core/session/open_volume.hpp>
-#include <core/session/warped.hpp>
+#include <core/session/volume/describe_volume.hpp>
+#include <core/session/volume/open_volume.hpp>
+#include <core/session/volume/warped.hpp>
 
 #include <algorithm>
 #include <limits>

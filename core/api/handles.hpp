@@ -15,11 +15,11 @@
 #include <core/render/renderer.hpp>
 #include <core/scene/scene.hpp>
 #include <core/session/animation_pictures.hpp>
-#include <core/session/extrema_finder.hpp>
 #include <core/session/picture_stats.hpp>
 #include <core/session/screen_picture.hpp>
 #include <core/session/still_picture.hpp>
 #include <core/session/streamline_tubes.hpp>
+#include <core/session/volume/extrema_finder.hpp>
 #include <core/streamline/trace.hpp>
 #include <core/vulkan/device.hpp>
 

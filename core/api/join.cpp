@@ -1,7 +1,7 @@
 #include "call.hpp"
 
-#include <core/session/joined.hpp>
-#include <core/session/warped.hpp>
+#include <core/session/volume/joined.hpp>
+#include <core/session/volume/warped.hpp>
 
 #include <utility>
 

@@ -1,7 +1,7 @@
 #include "drawing.hpp"
 
-#include <core/session/field_samples.hpp>
 #include <core/session/pick.hpp>
+#include <core/session/volume/field_samples.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <core/api/call.hpp>
 #include <core/parts/all_boxes.hpp>
 #include <core/parts/part_volume.hpp>
-#include <core/session/warped.hpp>
+#include <core/session/volume/warped.hpp>
 
 #include <elvis/native/serve.hpp>
 

@@ -9,7 +9,7 @@
 #include "rank_volume.hpp"
 
 #include <core/expression/expression.hpp>
-#include <core/session/extrema_finder.hpp>
+#include <core/session/volume/extrema_finder.hpp>
 #include <core/vulkan/device.hpp>
 
 #include <cstdint>

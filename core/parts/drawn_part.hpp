@@ -6,7 +6,7 @@
 
 #include <core/parts/partition.hpp>
 #include <core/render/renderer.hpp>
-#include <core/session/warped.hpp>
+#include <core/session/volume/warped.hpp>
 
 #include <elvis/native/serve.hpp>
 

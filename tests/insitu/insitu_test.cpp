@@ -2,7 +2,7 @@
 #include "rank_arrays.hpp"
 #include "thread_ranks.hpp"
 
-#include <core/session/warped.hpp>
+#include <core/session/volume/warped.hpp>
 #include <tests/support/program_folder.hpp>
 
 #include <catch2/catch.hpp>

@@ -7,7 +7,7 @@
 #include <core/parts/draw_in_parts.hpp>
 #include <core/render/renderer.hpp>
 #include <core/scene/frame_request.hpp>
-#include <core/session/warped.hpp>
+#include <core/session/volume/warped.hpp>
 #include <tests/support/files.hpp>
 #include <tests/support/test_volumes.hpp>
 

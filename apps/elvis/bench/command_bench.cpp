@@ -2,7 +2,7 @@
 #include <apps/elvis/commands.hpp>
 
 #include <core/base/error.hpp>
-#include <core/session/open_volume.hpp>
+#include <core/session/volume/open_volume.hpp>
 
 #include <algorithm>
 #include <cstdarg>

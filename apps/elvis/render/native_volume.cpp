@@ -1,8 +1,8 @@
 #include "native_volume.hpp"
 
 #include <core/base/error.hpp>
-#include <core/session/joined.hpp>
-#include <core/session/warped.hpp>
+#include <core/session/volume/joined.hpp>
+#include <core/session/volume/warped.hpp>
 
 #include <optional>
 #include <string>

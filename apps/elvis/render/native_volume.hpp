@@ -8,7 +8,7 @@
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/scene/scene.hpp>
-#include <core/session/open_volume.hpp>
+#include <core/session/volume/open_volume.hpp>
 
 #include <elvis/native/volume_source.hpp>
 

@@ -7,9 +7,9 @@
 #include <core/demand/draw_on_demand.hpp>
 #include <core/scene/output/buffers_file.hpp>
 #include <core/scene/output/png_file.hpp>
-#include <core/session/open_volume.hpp>
 #include <core/session/picture_stats.hpp>
-#include <core/session/warped.hpp>
+#include <core/session/volume/open_volume.hpp>
+#include <core/session/volume/warped.hpp>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>

@@ -1,4 +1,4 @@
-#include <core/session/extrema_finder.hpp>
+#include <core/session/volume/extrema_finder.hpp>
 
 #include <core/volume/field/field_extrema.hpp>
 

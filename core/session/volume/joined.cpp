@@ -1,4 +1,4 @@
-#include <core/session/joined.hpp>
+#include <core/session/volume/joined.hpp>
 
 #include <core/base/error.hpp>
 

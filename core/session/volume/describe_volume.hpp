@@ -5,7 +5,7 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
-#include <core/session/extrema_finder.hpp>
+#include <core/session/volume/extrema_finder.hpp>
 #include <core/volume/element/jacobian_check.hpp>
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-#include <core/session/open_volume.hpp>
+#include <core/session/volume/open_volume.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>

@@ -1,5 +1,5 @@
 #include <core/base/infinity.hpp>
-#include <core/session/describe_volume.hpp>
+#include <core/session/volume/describe_volume.hpp>
 
 #include <core/base/background.hpp>
 #include <core/base/counted.hpp>

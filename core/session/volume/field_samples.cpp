@@ -1,4 +1,4 @@
-#include <core/session/field_samples.hpp>
+#include <core/session/volume/field_samples.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>

@@ -1,4 +1,4 @@
-#include <core/session/warped.hpp>
+#include <core/session/volume/warped.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/nearest_word.hpp>
