@@ -40,7 +40,11 @@ std::vector<std::uint32_t> OctantsAhead::operator()(std::span<const std::uint32_
     const auto place_of = [&](std::size_t i) {
         return m_places.find(key_of(elements_and_codes[i], elements_and_codes[i + 1]));
     };
-    if (elements_and_codes.empty() || place_of(0) == m_places.end()) {
+    bool are_known = !elements_and_codes.empty();
+    for (std::size_t i = 0; are_known && i < elements_and_codes.size(); i += 2) {
+        are_known = place_of(i) != m_places.end();
+    }
+    if (!are_known) {
         if (!m_looks_ahead) {
             return m_evaluate(elements_and_codes);
         }
