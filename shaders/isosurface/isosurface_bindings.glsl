@@ -18,11 +18,12 @@ struct core_crossing_record {
     elvis_real isovalue;
     // Along the ray.
     elvis_real slack;
-    // CORE_CROSSING_...
+    // CORE_CROSSING_..., and above these bits the element's number, counted from 1.
     uint bits;
 };
 #define CORE_CROSSING_RISES 1u
 #define CORE_CROSSING_CERTAIN 2u
+#define CORE_CROSSING_BITS 2
 // Two a pixel: of odd and of even rounds, so that classes of elements do not find each other's.
 layout(set = 0, binding = CORE_LAST_BINDING, std430) buffer core_last_block { core_crossing_record core_last[]; };
 

@@ -69,6 +69,14 @@ bool core_is_last_again(const core_last_crossing last, const core_nearest_crossi
     return last.is_any && is_alike && !(found.is_certain && was_certain) && found.t - last.t <= max(found.slack, last.record.slack);
 }
 
+// Whether a crossing found is the last one because the ray has been in the same element since: before the field rises through an isovalue
+// once more, it falls through it, and that would have been found first. However far rounding leads.
+bool core_is_last_in_element(const core_last_crossing last, const core_nearest_crossing found) {
+    const bool rose = (last.record.bits & CORE_CROSSING_RISES) != 0u;
+    return last.is_any && found.rises == rose && found.isovalue == last.record.isovalue &&
+           last.record.bits >> CORE_CROSSING_BITS == (found.number + 1u) << CORE_CROSSING_BITS >> CORE_CROSSING_BITS;
+}
+
 // Whether a crossing found lies ahead of where the ray starts, and behind a crossing that was found before.
 bool core_is_ahead(const core_ray ray, elvis_real t, elvis_real slack) {
     return t > ray.counts_from + ray.widths_behind * slack && t > ray.counts_from;
@@ -123,7 +131,8 @@ uint core_nearest_store(const core_nearest_crossing nearest, uint pixel, const c
                         elvis_real reference_distance) {
     const bool is_hit = nearest.element != CORE_NO_ELEMENT;
     if (is_hit) {
-        const uint bits = (nearest.rises ? CORE_CROSSING_RISES : 0u) | (nearest.is_certain ? CORE_CROSSING_CERTAIN : 0u);
+        const uint bits = (nearest.rises ? CORE_CROSSING_RISES : 0u) | (nearest.is_certain ? CORE_CROSSING_CERTAIN : 0u) |
+                          (nearest.number + 1u) << CORE_CROSSING_BITS;
         core_last[2u * pixel + core_round % 2u] = core_crossing_record(nearest.isovalue, nearest.slack, bits);
         core_store_crossing(pixel, core_surface_number, nearest.rises, nearest.isovalue, (nearest.t + reference_distance) * stretch,
                             nearest.number, elvis_vec3(nearest.gradient_x, nearest.gradient_y, nearest.gradient_z), ray.direction,

@@ -63,7 +63,9 @@ void core_projection_polish_or_take(core_ray ray, core_traced_ray traced_ray, el
     const bool is_surely_inside = root_t >= search.segment.enter + search.segment.enter_error + slack &&
                                   root_t <= search.segment.leave - search.segment.leave_error - slack;
     const core_nearest_crossing root = core_polished(found, search, root_t, half_width, bend_here, is_surely_inside);
-    const bool is_crossing = is_settled && is_confirmed && is_inside && !core_is_last_again(last, root);
+    const bool is_last_again =
+        core_is_last_again(last, root) || (search.segment_from <= last.t && core_is_last_in_element(last, root));
+    const bool is_crossing = is_settled && is_confirmed && is_inside && !is_last_again;
     const bool is_hit = is_crossing && core_is_ahead(ray, root_t, half_width);
     search.flags |= is_crossing && core_is_ahead_doubtful(ray, root_t, half_width) ? CORE_FLAG_UNDECIDED_IN_FRONT : 0u;
     // The last step may be small by chance.
