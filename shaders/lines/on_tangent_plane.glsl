@@ -30,10 +30,10 @@ elvis_real core_first_half_size(bool is_smooth) { return is_smooth ? elvis_real(
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
     const bool is_smooth = listed.around.is_smooth;
     surface.listed = listed;
-    surface.corners =
-        core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, core_first_half_size(is_smooth)));
-    const core_departure bent = core_departure_in(surface.corners, listed.tangent, listed.ray, core_bending[listed.pixel],
-                                                  listed.around.turning, false);
+    const elvis_real half_size = core_first_half_size(is_smooth);
+    surface.corners = core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, half_size));
+    const core_departure bent = core_departure_in(surface.corners, listed.tangent, listed.ray, half_size,
+                                                  core_bending[listed.pixel], listed.around.turning, false);
     surface.departure = bent.distance;
     surface.box = core_box_around(surface.corners, surface.corners.error + bent.distance, 0.0);
 

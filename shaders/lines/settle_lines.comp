@@ -72,7 +72,7 @@ core_shown_square core_pixel_square(core_element_image image, core_place place, 
     core_cut_square corners = core_tangent_square(tangent, in_picture);
     may_end_near = core_may_end_near(pixel, corners, tangent);
     // What a loose bound decides is no estimate.
-    const core_departure bent = core_departure_in(corners, tangent, ray, core_bending[pixel], around.turning, true);
+    const core_departure bent = core_departure_in(corners, tangent, ray, in_picture.half_size, core_bending[pixel], around.turning, true);
     corners.error += bent.distance;
     core_shown_square square = core_shown_square_at(image, corners, tangent.normal, ray.direction, CORE_NO_FACE);
     square.is_whole_pixel = around.is_smooth;

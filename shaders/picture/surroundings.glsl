@@ -96,17 +96,33 @@ struct core_departure {
     bool is_estimated;
 };
 
-// What the surface may depart from its tangent plane in the square. Triangles are flat but not together: what normals of neighbours
+// How far along a ray a surface with normal curvatures of `bend` at most may be from its tangent plane at a point p, where the ray meets the
+// plane at the distance d from p: at the point that the ray meets, at the distance s from the plane's, the surface is off the plane by
+//
+//     s cosine <= bend / 2 (d^2 + 2 d s + s^2),
+//
+// as the point is at most d + s from p. Beyond all numbers where the ray may miss the surface.
+elvis_real core_departure_along(elvis_real bend, elvis_real d, elvis_real cosine) {
+    const elvis_real turn = bend * d, room = cosine - turn, square = room * room - turn * turn;
+    const bool is_bounded = room > elvis_real(0) && square > elvis_real(0);
+    return is_bounded ? turn * d / (room + sqrt(square)) : bend > elvis_real(0) ? CORE_FAR : elvis_real(0);
+}
+
+// What the surface may depart from its tangent plane in a square of the picture, of this half of a side. Triangles are flat but not together: what normals of neighbours
 // tell counts, too. Twice that stands for a bending that is not known, or, unless `takes_loose`, known by a loose bound alone.
-core_departure core_departure_in(core_cut_square square, core_tangent tangent, core_cut_ray ray, elvis_real bending,
-                                 elvis_real turning, bool takes_loose) {
-    const elvis_real cosine = -dot(tangent.normal, ray.direction) / length(ray.direction);
+core_departure core_departure_in(core_cut_square square, core_tangent tangent, core_cut_ray ray, elvis_real half_size,
+                                 elvis_real bending, elvis_real turning, bool takes_loose) {
+    // Of all rays in the square.
+    const elvis_vec3 next = core_direction_column.xyz, below = core_direction_row.xyz;
+    const elvis_real fall = -dot(tangent.normal, ray.direction) -
+                            half_size * (abs(dot(tangent.normal, next)) + abs(dot(tangent.normal, below)));
+    const elvis_real cosine = fall / (length(ray.direction) + half_size * (length(next) + length(below)));
     const elvis_real farthest = core_farthest_square(square, tangent.point);
     const bool is_loose = bending * bending * farthest > CORE_LOOSE * CORE_LOOSE && elvis_real(2) * turning < bending;
     core_departure departure;
     departure.is_estimated = bending >= CORE_FAR || (is_loose && !takes_loose);
     const elvis_real bend = departure.is_estimated ? elvis_real(2) * turning : max(bending, turning);
-    departure.distance = elvis_real(0.5LF) * bend * farthest / max(cosine, elvis_real(1e-6LF));
+    departure.distance = core_departure_along(bend, sqrt(farthest), max(cosine, elvis_real(1e-6LF)));
     return departure;
 }
 #endif

@@ -156,18 +156,21 @@ private:
     bool is_near_clip(std::size_t pixel) const {
         if (m_surface.clip.empty())
             return false;
-        bool is_near = false;
+        // A neighbour may see what is cut away here, far in front.
+        bool is_near = m_answers[pixel].pixel.surface < 0 || distance_to_clip(pixel) < 1;
         for_neighbours(pixel, [&](std::size_t other) {
-            is_near = is_near || (m_answers[other].pixel.surface >= 0) != (m_answers[pixel].pixel.surface >= 0) ||
-                      m_answers[pixel].pixel.surface < 0;
+            is_near = is_near || m_answers[other].pixel.surface < 0 || distance_to_clip(other) < 1;
         });
-        return is_near || distance_to_clip(pixel) < 1;
+        return is_near;
     }
     /** In steps from this pixel to its neighbours on the surface. */
     double distance_to_clip(std::size_t pixel) const {
         const Vector x = position(pixel);
         double step = 0, least = 1e300;
-        for_neighbours(pixel, [&](std::size_t other) { step = std::max(step, (position(other) - x).norm()); });
+        for_neighbours(pixel, [&](std::size_t other) {
+            if (m_answers[other].pixel.surface >= 0)
+                step = std::max(step, (position(other) - x).norm());
+        });
         for (const std::array<double, 4>& plane : m_surface.clip) {
             const Vector normal(plane[0], plane[1], plane[2]);
             least = std::min(least, std::abs(normal.dot(x) + plane[3]) / normal.norm());
