@@ -18,13 +18,20 @@ struct core_surface {
     // Where the pixel's own point lies, and whether that is an element of this class; rays enter the volume there.
     core_place place;
     bool is_shown_class, enters;
+    // Other faces that face the viewer are in view.
+    bool shows_others;
 };
+
+// Cosine of the angle below which what neighbours see may be another sheet of the surface, not far behind a silhouette.
+#define CORE_OBLIQUE elvis_real(0.3LF)
 
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
     const core_place place = core_places[listed.pixel];
     surface.listed = listed;
     surface.place = place;
     surface.is_shown_class = core_class_of(place) == core_class;
+    surface.shows_others = listed.around.is_smooth && -dot(listed.tangent.normal, listed.ray.direction) >=
+                                                          CORE_OBLIQUE * length(listed.ray.direction);
     surface.enters = (place.class_and_face & CORE_PLACE_ENTERS) != 0u;
     const core_cut_square corners =
         core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, elvis_real(0.5LF)));
@@ -84,13 +91,13 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     core_shown_square square = core_own_square_at(image, max(search.own_face, 0), place);
     // A line is met on faces that face the viewer as the one that the pixel shows; both sides of an element of two dimensions do.
     const bool is_facing = CORE_HAS_TWO_DIMENSIONS || square.enters == surface.enters;
-    square.is_seen = square.is_seen && is_facing;
+    const bool is_shown = core_is_shown_face(surface, search.item, search.own_face);
+    square.is_seen = square.is_seen && is_facing && (is_shown || surface.shows_others);
     // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
     const core_cut_square corners = square.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
     const elvis_real height = dot(surface.listed.tangent.normal, middle - surface.listed.tangent.point);
-    square.is_hidden = surface.listed.around.is_smooth && !core_is_shown_face(surface, search.item, search.own_face) &&
-                       !square.approach.is_far && height < elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
+    square.is_hidden = surface.listed.around.is_smooth && !is_shown && !square.approach.is_far && height < elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
     return square;
 }
 
