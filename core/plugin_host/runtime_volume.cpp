@@ -176,6 +176,15 @@ const std::vector<std::string>& RuntimeVolume::boundary_groups() const { return 
 const std::vector<std::pair<std::string, std::string>>& RuntimeVolume::notes() const { return m_impl->notes; }
 std::uint32_t RuntimeVolume::n_buffers() const { return m_impl->info.n_buffers; }
 
+const RuntimeVolume* RuntimeVolume::undeformed() const {
+    if (!m_impl->undeformed && m_impl->open_undeformed) {
+        m_impl->undeformed.emplace(m_impl->open_undeformed());
+    }
+    return m_impl->undeformed ? &*m_impl->undeformed : nullptr;
+}
+
+void RuntimeVolume::set_undeformed(std::function<RuntimeVolume()> open) { m_impl->open_undeformed = std::move(open); }
+
 std::uint32_t RuntimeVolume::field_index(const std::string& name) const {
     std::string known;
     for (std::uint32_t index = 0; index < m_impl->fields.size(); ++index) {

@@ -189,6 +189,11 @@ public:
     void evaluate_field(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, std::span<const double> xi,
                         std::span<double> values, std::span<double> gradients) const;
 
+    /** Of a volume whose geometry is displaced: the same elements, in the same order, where they were. Null of others. Opened
+     * when first asked for. */
+    const RuntimeVolume* undeformed() const;
+    void set_undeformed(std::function<RuntimeVolume()> open);
+
     bool has_jacobian_checks() const;
     /** Checked: known signs, witnesses in the shape. Needs has_jacobian_checks(); core/volume/element/jacobian_check.hpp does
      * not. */

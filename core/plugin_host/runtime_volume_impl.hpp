@@ -25,6 +25,8 @@ struct RuntimeVolume::Impl {
     std::vector<double> times;
     std::vector<std::string> groups;
     std::vector<std::pair<std::string, std::string>> notes;
+    std::function<RuntimeVolume()> open_undeformed;
+    std::optional<RuntimeVolume> undeformed;
 
     ~Impl() {
         if (volume && is_closed_here) {

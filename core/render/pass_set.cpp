@@ -81,7 +81,7 @@ void PassSet::drop_faces(const std::function<bool(const FaceGeometry&)>& is_drop
         }
     }
     std::erase_if(m_face_sets, [&](const auto& entry) { return is_dropped(entry.first); });
-    std::erase_if(m_edge_sets, [&](const auto& entry) { return is_dropped(entry.first); });
+    std::erase_if(m_edge_sets, [&](const auto& entry) { return is_dropped(entry.first.first); });
 }
 
 /** Drops what belongs to another shape of the elements. */
@@ -105,11 +105,17 @@ SurfaceSolver& PassSet::solver(const CutShape& shape) {
     return m_solvers.try_emplace(key, m_device, m_data.precision(), shape, m_data.bounds()).first->second;
 }
 
-const EdgeSet& PassSet::edges(const FaceGeometry& faces) {
+const EdgeSet& PassSet::edges(const WireFrame& wires) {
     follow_geometry();
-    auto found = m_edge_sets.find(faces);
+    const RuntimeVolume* const undeformed = wires.is_undeformed ? m_volume.undeformed() : nullptr;
+    const std::pair key(wires.faces, undeformed != nullptr);
+    auto found = m_edge_sets.find(key);
     if (found == m_edge_sets.end()) {
-        found = m_edge_sets.try_emplace(faces, m_device, m_volume, m_data, chosen_faces(faces), m_control).first;
+        const std::vector<ElementFace> faces = chosen_faces(wires.faces);
+        found = m_edge_sets
+                    .emplace(key, undeformed != nullptr ? EdgeSet(*undeformed, faces, m_control)
+                                                        : EdgeSet(m_device, m_volume, m_data, faces, m_control))
+                    .first;
     }
     return found->second;
 }

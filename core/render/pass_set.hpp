@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -36,7 +37,7 @@ public:
     FieldPasses& of(const FieldChoice& field);
     /** Of the shape that the elements have at the time step of the field that is on the device. */
     const FaceSet& faces(const FaceGeometry& faces);
-    const EdgeSet& edges(const FaceGeometry& faces);
+    const EdgeSet& edges(const WireFrame& wires);
     SurfaceSolver& solver(const CutShape& shape);
 
 private:
@@ -52,7 +53,8 @@ private:
     const TaskControl* m_control;
     /** Of the geometry that has this version. */
     std::map<FaceGeometry, FaceSet> m_face_sets;
-    std::map<FaceGeometry, EdgeSet> m_edge_sets;
+    /** With whether they are undeformed. */
+    std::map<std::pair<FaceGeometry, bool>, EdgeSet> m_edge_sets;
     std::uint64_t m_faces_version = 0;
     /** By ShownFields::key(): of the last frame, and of its time step. */
     std::map<std::string, FieldPasses> m_passes;

@@ -44,7 +44,8 @@ PixelRows rows_of(const FrameRequest& request, std::array<double, 6> box) {
     for (const Surface& surface : request.surfaces) {
         const WireFrame* const wires = traits_of(surface.geometry).wires;
         margin = std::max(margin, wires != nullptr ? 2 + wires->width : 0);
-        is_bounded = is_bounded && !surface.outside && !traits_of(surface.geometry).has_own_values;
+        is_bounded = is_bounded && !surface.outside && !traits_of(surface.geometry).has_own_values &&
+                     !(wires != nullptr && wires->is_undeformed);
     }
     if (!is_bounded) {
         return {0, request.height};

@@ -90,6 +90,8 @@ struct WireFrame {
     FaceGeometry faces{};
     /** In pixels. 1: the pixels whose closed square meets an edge; else those with their centre within half of it. */
     double width = 1;
+    /** Where they are without displacement, if the volume is displaced (RuntimeVolume::undeformed). */
+    bool is_undeformed = false;
 };
 
 /** How crossings of rays with isosurfaces are found. */

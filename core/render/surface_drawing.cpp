@@ -182,10 +182,10 @@ void SurfaceDrawing::finish(const Isosurfaces& isosurfaces, const LayerTarget& t
     draw_lines(isosurfaces, &pass.bending(), &pass.frame(), target, counts);
 }
 
-void SurfaceDrawing::provide(const WireFrame& wires) { m_passes.edges(wires.faces); }
+void SurfaceDrawing::provide(const WireFrame& wires) { m_passes.edges(wires); }
 
 void SurfaceDrawing::draw(const WireFrame& wires, const LayerTarget& target, FrameCounts&) {
-    m_edge_pass.draw(m_passes.edges(wires.faces), m_request.camera, m_request.place(), wires.width, -m_offset, first, target);
+    m_edge_pass.draw(m_passes.edges(wires), m_request.camera, m_request.place(), wires.width, -m_offset, first, target);
 }
 
 void SurfaceDrawing::finish(const WireFrame&, const LayerTarget&, FrameCounts&) {}

@@ -15,11 +15,13 @@
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
 #include <core/scene/threshold.hpp>
+#include <core/volume/outline.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 
 namespace elvis {
 
@@ -272,17 +274,46 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
     return choice;
 }
 
-std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges) {
-    if (scene.surfaces.empty() && (volume.dimension() == 2 || !scene.volume_rendering)) {
-        if (scene.threshold && volume.dimension() == 3 && volume.n_faces() > 0) {
-            return {SceneSurface{BoundaryFaces{}}};
+namespace {
+
+/** Edges of another shape of the volume, which stand beside what is shown. */
+bool is_undeformed(const SceneSurface& surface) {
+    const WireFrame* const wires = traits_of(surface.geometry).wires;
+    return wires != nullptr && wires->is_undeformed;
+}
+
+/** Where a volume is that fills the picture; with where it was, if that is shown, too. */
+VolumeExtent extent_of(const RuntimeVolume& volume, const std::vector<SceneSurface>& surfaces, PictureRanges& ranges) {
+    VolumeExtent extent{ranges.bounds(), ranges.outline()};
+    const bool shows_undeformed = std::ranges::any_of(surfaces, is_undeformed);
+    if (const RuntimeVolume* const before = shows_undeformed ? volume.undeformed() : nullptr) {
+        std::vector<double> boxes(6 * before->n_elements());
+        before->bounds(0, before->n_elements(), boxes);
+        for (std::size_t at = 0; at < boxes.size(); ++at) {
+            double& bound = extent.bounds[at % 6];
+            bound = at % 6 < 3 ? std::min(bound, boxes[at]) : std::max(bound, boxes[at]);
         }
-        std::string label;
-        return default_surfaces(scene.camera, volume, ranges, choose_field(scene, volume, scene.field, label), scene.time_step);
+        std::ranges::copy(outline_points(*before, boxes), std::back_inserter(extent.outline));
     }
-    std::vector<SceneSurface> shown = scene.surfaces;
-    std::erase_if(shown, [](const SceneSurface& surface) { return !surface.is_shown; });
-    return shown;
+    return extent;
+}
+
+} // namespace
+
+std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges) {
+    std::vector<SceneSurface> drawn;
+    const bool says_none = std::ranges::all_of(scene.surfaces, is_undeformed);
+    if (says_none && (volume.dimension() == 2 || !scene.volume_rendering)) {
+        if (scene.threshold && volume.dimension() == 3 && volume.n_faces() > 0) {
+            drawn = {SceneSurface{BoundaryFaces{}}};
+        } else {
+            std::string label;
+            drawn = default_surfaces(scene.camera, volume, ranges, choose_field(scene, volume, scene.field, label),
+                                     scene.time_step);
+        }
+    }
+    std::ranges::copy_if(scene.surfaces, std::back_inserter(drawn), &SceneSurface::is_shown);
+    return drawn;
 }
 
 FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges) {
@@ -297,7 +328,8 @@ FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume,
     request.lighting = scene.lighting;
     request.time_step = scene.time_step;
     const std::vector<SceneSurface> surfaces = drawn_surfaces(scene, volume, ranges);
-    const VolumeExtent extent{ranges.bounds(), is_placed(scene.camera) ? std::vector<Vector3>() : ranges.outline()};
+    const VolumeExtent extent =
+        is_placed(scene.camera) ? VolumeExtent{ranges.bounds(), {}} : extent_of(volume, surfaces, ranges);
     request.camera = resolve_camera(scene, extent, planes_looked_at(surfaces, volume, ranges));
     for (const SceneSurface& surface : surfaces) {
         request.surfaces.push_back(make_surface(surface, scene, volume, ranges, request.remarks));

@@ -16,7 +16,9 @@ namespace elvis {
  */
 FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::string>& text);
 
-/** The scene's surfaces that are drawn; what default_surfaces.hpp says if it shows nothing. */
+/** The scene's surfaces that are drawn; what default_surfaces.hpp says if it shows nothing, or undeformed edges alone, before
+ * them.
+ */
 std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges);
 
 /**

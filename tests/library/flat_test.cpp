@@ -250,6 +250,26 @@ TEST_CASE("A number is a height above the plane, and the surface that it makes h
     CHECK(flat.render(shown).info().n_hit_pixels == n_hit);
 }
 
+TEST_CASE("A picture that nobody has placed a camera for shows all undeformed edges beside what is displaced") {
+    const context library = own_context();
+    const data flat = bent_rectangle(library);
+    scene shown = library.make_scene();
+    shown.set("/image/size", "[80, 160]");
+    // To negative x, while the edges stay at positive x.
+    shown.set("/warp", R"({"field": "u", "factor": -2})");
+    shown.set("/surfaces/-", R"({"type": "wireframe", "color": [1, 0, 0], "undeformed": true})");
+    const std::vector<double> color = flat.render(shown).read<double>(ELVIS_CHANNEL_COLOR);
+    std::size_t n_edges = 0, n_at_border = 0;
+    for (std::size_t pixel = 0; pixel < color.size() / 4; ++pixel) {
+        const std::size_t column = pixel % 80, row = pixel / 80;
+        const bool is_edge = color[4 * pixel] == 1 && color[4 * pixel + 1] == 0;
+        n_edges += is_edge;
+        n_at_border += is_edge && (column == 0 || column == 79 || row == 0 || row == 159);
+    }
+    CHECK(n_edges > 10);
+    CHECK(n_at_border == 0);
+}
+
 TEST_CASE("A pixel of a plane is asked, and percentiles of its values are told") {
     const context library = own_context();
     const data flat = bent_rectangle(library);

@@ -122,6 +122,45 @@ TEST_CASE("A scene with a warp shows the displaced volume, at its time step, and
     CHECK(colors(steps.render(1)) != colors(steps.render(0)));
 }
 
+TEST_CASE(
+    "Undeformed edges beside a displaced volume are those of the volume that is not displaced, hidden by what is before them") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(library, folder, flow));
+    const char* const wires = R"({"type": "wireframe", "color": [1, 0, 0], "width": 3, "undeformed": true})";
+    scene shown = lit_boundary(library);
+    shown.set("/precision", "\"float64\"");
+    shown.remove("/lighting");
+    shown.set("/surfaces", std::string("[") + wires + "]");
+    shown.set("/surfaces/-", R"({"type": "plane", "plane": [0, 0, 1, 100]})"); // Nothing: edges alone come with the boundary.
+    const picture straight = volume.render(shown), displaced = volume.warp(by("velocity", 0.3)).render(shown);
+    CHECK(colors(displaced) == colors(straight));
+    CHECK(displaced.read<std::uint32_t>(ELVIS_CHANNEL_FLAGS) == straight.read<std::uint32_t>(ELVIS_CHANNEL_FLAGS));
+    const std::vector<double> edges = displaced.read<double>(ELVIS_CHANNEL_DEPTH);
+    shown.set("/surfaces/0/undeformed", "false");
+    CHECK(colors(volume.render(shown)) == colors(straight));
+    shown.set("/warp", R"({"field": "velocity", "factor": 0.3})");
+    CHECK(colors(volume.render(shown)) != colors(straight));
+
+    // With what the scene shows without surfaces: the boundary, displaced.
+    shown.set("/surfaces", std::string("[") + wires + "]");
+    const picture both = volume.render(shown);
+    shown.remove("/surfaces");
+    const std::vector<double> faces = volume.render(shown).read<double>(ELVIS_CHANNEL_DEPTH), color = colors(both);
+    std::size_t n_seen = 0, n_hidden = 0, n_wrong = 0;
+    for (std::size_t pixel = 0; pixel < faces.size(); ++pixel) {
+        const bool is_edge = std::isfinite(edges[pixel]), is_hidden = is_edge && faces[pixel] < edges[pixel];
+        const bool is_red = color[4 * pixel] == 1 && color[4 * pixel + 1] == 0 && color[4 * pixel + 2] == 0;
+        n_seen += is_red;
+        n_hidden += is_hidden;
+        n_wrong += is_red != (is_edge && !is_hidden);
+    }
+    std::cout << "undeformed edges: " << n_seen << " pixels, " << n_hidden << " hidden\n";
+    CHECK(n_seen > 200);
+    CHECK(n_hidden > 20);
+    CHECK(n_wrong == 0);
+}
+
 TEST_CASE("A warp that cannot be is refused, and the volume stays as it is") {
     const context library(own_plugins());
     const TemporaryFolder folder;

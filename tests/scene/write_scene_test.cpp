@@ -70,6 +70,7 @@ const std::vector<std::string>& documents() {
                "negative_jacobian": true, "value_range": [0.0, 1.0], "box": [0.0, 0.0, 0.0, 1.0, 1.0, 1.0], "faces": "outer"},
               {"type": "wireframe", "width": 2.0, "groups": ["wall"], "color": [0.0, 0.0, 0.0]},
               {"type": "wireframe", "width": 1.0, "orders": [1, 2], "faces": "inner", "color": [1.0, 0.0, 0.0], "lighting": true},
+              {"type": "wireframe", "width": 1.0, "undeformed": true, "color": [0.5, 0.5, 0.5]},
               {"type": "sphere", "center": [0.0, 0.0, 0.0], "radius": 0.5},
               {"type": "cylinder", "from": [0.0, 0.0, 0.0], "to": [0.0, 0.0, 1.0], "radius": 0.5, "capped": false},
               {"type": "cone", "from": [0.0, 0.0, 0.0], "to": [0.0, 0.0, 1.0], "from_radius": 0.5, "to_radius": 0.0, "capped": true},

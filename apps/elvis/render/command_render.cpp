@@ -179,6 +179,8 @@ void add_render(CLI::App& app, DivisibleTeam* team) {
     add_volume(*command, *a);
     add_join(*command, a->joins);
     add_warp(*command, a->warp);
+    command->add_flag("--undeformed-edges", a->undeformed_edges,
+                      "Draw the edges of the boundary where they are without the warp, too, in gray");
     command->add_option("--streamlines", a->streamlines,
                         "Tubes along this vector field, from a grid of points; a scene says more about them");
     CLI::Option* const arrows = command->add_option(

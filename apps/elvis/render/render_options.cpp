@@ -105,6 +105,12 @@ void apply_surfaces(const RenderArguments& arguments, Document& scene) {
         scene.set("/surfaces/-", {{"type", "pathlines"}, {"flow", arguments.pathlines}});
     }
     apply_arrows(arguments, scene);
+    if (arguments.undeformed_edges) {
+        if (!scene.has("/warp")) {
+            throw UsageError("--undeformed-edges", "means nothing without --warp, or a scene with warp");
+        }
+        scene.set("/surfaces/-", {{"type", "wireframe"}, {"undeformed", true}, {"color", {0.5, 0.5, 0.5}}});
+    }
 }
 
 void apply_lines(const RenderArguments& arguments, Document& scene) {

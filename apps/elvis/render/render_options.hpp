@@ -29,6 +29,7 @@ struct RenderArguments {
     std::string output;
     std::vector<std::string> joins;
     WarpArguments warp;
+    bool undeformed_edges = false;
     std::string time_steps;
     int phases = 0;
     int turntable = 0;

@@ -93,6 +93,7 @@ ElementSelection read_selection(const JsonObject& object) {
 WireFrame read_wireframe(const JsonObject& object) {
     WireFrame frame;
     frame.width = object.has("width") ? object.number("width") : 1;
+    frame.is_undeformed = object.has("undeformed") && object.flag("undeformed");
     bool has_condition = false;
     for (const char* key : {"ids", "shapes", "orders", "negative_jacobian", "value_range", "box", "faces"}) {
         has_condition = has_condition || object.has(key);

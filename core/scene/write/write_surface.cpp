@@ -39,6 +39,9 @@ void add_selection(SceneJson& json, const ElementSelection& selection) {
 
 void add_wireframe(SceneJson& json, const WireFrame& frame) {
     json["width"] = frame.width;
+    if (frame.is_undeformed) {
+        json["undeformed"] = true;
+    }
     std::visit(Overloaded{[&](const BoundaryFaces& boundary) { add_groups(json, boundary); }, [](const FlatElements&) {},
                           [&](const ElementFaces& elements) { add_selection(json, elements.selection); }},
                frame.faces);

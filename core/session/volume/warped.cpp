@@ -71,7 +71,9 @@ std::shared_ptr<const native::VolumeSource> warped_source(std::shared_ptr<const 
 RuntimeVolume open_warped(std::shared_ptr<const native::VolumeSource> source, const SceneWarp& warp, std::uint32_t time_step,
                           const std::string& name, const TaskControl* control) {
     try {
-        return serve_native(warped_source(std::move(source), warp, time_step, name), name, control);
+        RuntimeVolume displaced = serve_native(warped_source(source, warp, time_step, name), name, control);
+        displaced.set_undeformed([source = std::move(source), name, control] { return serve_native(source, name, control); });
+        return displaced;
     } catch (const api::Error& failure) {
         throw Error(name, std::string("cannot be displaced: ") + failure.what());
     }

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -26,11 +28,22 @@ struct Parameters {
 };
 
 struct LocalEdge {
-    std::uint32_t element = 0;
+    std::uint64_t element = 0;
     std::uint32_t number = 0;
-    Vector3 origin{};
     Vector3 from{}, to{};
 };
+
+/** Reference coordinates of order + 1 points from one end to the other (Chebyshev-Lobatto). */
+std::vector<double> points_of(const LocalEdge& edge, std::uint32_t order) {
+    std::vector<double> points;
+    for (std::uint32_t k = 0; k <= order; ++k) {
+        const double s = 0.5 - 0.5 * std::cos(std::numbers::pi * k / order);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            points.push_back(edge.from[axis] + s * (edge.to[axis] - edge.from[axis]));
+        }
+    }
+    return points;
+}
 
 /** Of a face, in order around it; none of a face that the shape lacks. An element in two dimensions is a face itself. */
 std::vector<int> corners_around(native::Shape shape, std::uint32_t local_face) {
@@ -45,8 +58,7 @@ std::vector<int> corners_around(native::Shape shape, std::uint32_t local_face) {
 }
 
 /** Of the faces of one class, each edge of an element once. */
-std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& volume, const DeviceVolume& data,
-                                   std::span<const ElementFace> faces) {
+std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& volume, std::span<const ElementFace> faces) {
     const native::Shape shape{info.shape};
     std::vector<LocalEdge> edges;
     std::set<std::array<int, 2>> of_element;
@@ -64,8 +76,7 @@ std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& v
             if (of_element.insert(ends).second) {
                 std::array<std::int64_t, 1> number{};
                 volume.element_numbers(element, 1, number);
-                edges.push_back({static_cast<std::uint32_t>(element - info.first_element),
-                                 static_cast<std::uint32_t>(number[0]), data.origin(element), native::corner(shape, ends[0]),
+                edges.push_back({element, static_cast<std::uint32_t>(number[0]), native::corner(shape, ends[0]),
                                  native::corner(shape, ends[1])});
             }
         }
@@ -73,9 +84,9 @@ std::vector<LocalEdge> local_edges(const ClassInfo& info, const RuntimeVolume& v
     return edges;
 }
 
-/** Positions of order + 1 points of each edge. */
-std::vector<double> sample(const Device& device, const DeviceVolume& data, std::uint32_t element_class, std::uint32_t order,
-                           std::span<const LocalEdge> edges) {
+/** Positions of the points of each edge, as the device computes them. */
+std::vector<double> sample(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
+                           std::uint32_t element_class, std::uint32_t order, std::span<const LocalEdge> edges) {
     const std::uint64_t block = std::min<std::uint64_t>(edges.size(), edges_a_dispatch);
     const std::uint32_t n_points = order + 1;
     KernelRequest request;
@@ -96,13 +107,8 @@ std::vector<double> sample(const Device& device, const DeviceVolume& data, std::
         points.clear();
         local.clear();
         for (const LocalEdge& edge : own) {
-            local.push_back(edge.element);
-            for (std::uint32_t k = 0; k < n_points; ++k) {
-                const double s = 0.5 - 0.5 * std::cos(std::numbers::pi * k / order);
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    points.push_back(edge.from[axis] + s * (edge.to[axis] - edge.from[axis]));
-                }
-            }
+            local.push_back(static_cast<std::uint32_t>(edge.element - volume.classes()[element_class].first_element));
+            std::ranges::copy(points_of(edge, order), std::back_inserter(points));
         }
         elements.write_items(std::span<const std::uint32_t>(local));
         const auto n = static_cast<std::uint32_t>(own.size() * n_points);
@@ -111,6 +117,23 @@ std::vector<double> sample(const Device& device, const DeviceVolume& data, std::
         kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + group_size - 1) / group_size);
         const std::vector<double> read = read_reals(output, data.precision(), std::size_t{3} * n);
         positions.insert(positions.end(), read.begin(), read.end());
+    }
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        const Vector3 origin = data.origin(edges[edge].element);
+        for (std::size_t at = 3 * edge * n_points; at < 3 * (edge + 1) * n_points; ++at) {
+            positions[at] += origin[at % 3];
+        }
+    }
+    return positions;
+}
+
+/** The same from the plugin, which computes in double precision. */
+std::vector<double> sample(const RuntimeVolume& volume, std::uint32_t order, std::span<const LocalEdge> edges) {
+    std::vector<double> positions;
+    for (const LocalEdge& edge : edges) {
+        const std::vector<double> points = points_of(edge, order);
+        positions.resize(positions.size() + points.size());
+        volume.evaluate_mapping(edge.element, points, std::span(positions).last(points.size()), {});
     }
     return positions;
 }
@@ -130,19 +153,69 @@ std::vector<double> transform(std::uint32_t order) {
     return matrix;
 }
 
+/** Around the elements of faces. */
+std::array<double, 6> bounds_around(const RuntimeVolume& volume, std::span<const ElementFace> faces) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::array<double, 6> bounds{infinity, infinity, infinity, -infinity, -infinity, -infinity};
+    for (const ElementFace& face : faces) {
+        std::array<double, 6> box{};
+        volume.bounds(face.element, 1, box);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            bounds[axis] = std::min(bounds[axis], box[axis]);
+            bounds[axis + 3] = std::max(bounds[axis + 3], box[axis + 3]);
+        }
+    }
+    return bounds;
+}
+
+double longest_side(const std::array<double, 6>& bounds) {
+    return std::max({bounds[3] - bounds[0], bounds[4] - bounds[1], bounds[5] - bounds[2]});
+}
+
+/** Edges whose middles are known. */
+class KnownMiddles {
+public:
+    explicit KnownMiddles(const std::array<double, 6>& bounds) : m_bounds(bounds), m_size(same_point * longest_side(bounds)) {}
+
+    /**
+     * Whether it was not known. Middles of edges of neighbours are the same but for rounding. One at the border between two
+     * cells of this lattice is drawn twice, which does no harm.
+     */
+    bool add(const Vector3& middle) {
+        std::array<std::int64_t, 3> cell{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            cell[axis] = std::llround((middle[axis] - m_bounds[axis]) / m_size);
+        }
+        return m_cells.insert(cell).second;
+    }
+
+private:
+    std::array<double, 6> m_bounds;
+    double m_size;
+    std::set<std::array<std::int64_t, 3>> m_cells;
+};
+
 } // namespace
 
 EdgeSet::EdgeSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
-                 std::span<const ElementFace> faces, const TaskControl* control) {
-    const std::array<double, 6>& bounds = data.bounds();
-    double size = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        size = std::max(size, bounds[axis + 3] - bounds[axis]);
-    }
-    m_rounding = (data.precision() == Precision::float64 ? 1e-15 : 1e-6) * size;
-    // Middles of edges: those of neighbours are the same but for rounding. One at the border between two cells of this lattice
-    // is drawn twice, which does no harm.
-    std::set<std::array<std::int64_t, 3>> known;
+                 std::span<const ElementFace> faces, const TaskControl* control)
+    : m_rounding((data.precision() == Precision::float64 ? 1e-15 : 1e-6) * longest_side(data.bounds())) {
+    add(volume, faces, data.bounds(), control, [&](std::uint32_t element_class, std::uint32_t order, auto edges) {
+        return sample(device, volume, data, element_class, order, edges);
+    });
+}
+
+EdgeSet::EdgeSet(const RuntimeVolume& volume, std::span<const ElementFace> faces, const TaskControl* control) {
+    const std::array<double, 6> bounds = bounds_around(volume, faces);
+    m_rounding = 1e-15 * longest_side(bounds);
+    add(volume, faces, bounds, control,
+        [&](std::uint32_t, std::uint32_t order, auto edges) { return sample(volume, order, edges); });
+}
+
+template <class Sampler>
+void EdgeSet::add(const RuntimeVolume& volume, std::span<const ElementFace> faces, const std::array<double, 6>& bounds,
+                  const TaskControl* control, const Sampler& sampled) {
+    KnownMiddles known(bounds);
     std::size_t first = 0;
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const ClassInfo& info = volume.classes()[index];
@@ -156,37 +229,30 @@ EdgeSet::EdgeSet(const Device& device, const RuntimeVolume& volume, const Device
         if (control) {
             control->check();
         }
-        const std::vector<LocalEdge> edges = local_edges(info, volume, data, faces.subspan(first, end - first));
+        const std::vector<LocalEdge> edges = local_edges(info, volume, faces.subspan(first, end - first));
         first = end;
         const std::uint32_t given = std::max({info.geometry_order[0], info.geometry_order[1], info.geometry_order[2]});
         // Twice the order: the plugin's geometry may be no polynomial.
         const std::uint32_t order = info.is_affine ? 1 : 2 * std::max(given, 1u);
-        const std::vector<double> positions = sample(device, data, index, order, edges);
+        const std::vector<double> positions = sampled(index, order, std::span<const LocalEdge>(edges));
         const std::vector<double> matrix = transform(order);
+        const std::vector<double> middle = chebyshev_values(static_cast<int>(order), 0.0);
         const std::size_t n_points = std::size_t{order} + 1;
         for (std::size_t edge = 0; edge < edges.size(); ++edge) {
             const std::size_t begin = m_coefficients.size();
-            std::array<std::int64_t, 3> cell{};
-            bool is_finite = true;
+            Vector3 x{};
             for (std::size_t m = 0; m < n_points; ++m) {
                 for (std::size_t axis = 0; axis < 3; ++axis) {
-                    double sum = m == 0 ? edges[edge].origin[axis] : 0.0;
+                    double sum = 0;
                     for (std::size_t k = 0; k < n_points; ++k) {
                         sum += matrix[m * n_points + k] * positions[3 * (edge * n_points + k) + axis];
                     }
-                    is_finite = is_finite && std::isfinite(sum);
                     m_coefficients.push_back(sum);
+                    x[axis] += middle[m] * sum;
                 }
             }
-            const std::vector<double> middle = chebyshev_values(static_cast<int>(order), 0.0);
-            for (std::size_t axis = 0; axis < 3 && is_finite; ++axis) {
-                double x = 0;
-                for (std::size_t m = 0; m < n_points; ++m) {
-                    x += middle[m] * m_coefficients[begin + 3 * m + axis];
-                }
-                cell[axis] = std::llround((x - bounds[axis]) / (same_point * size));
-            }
-            if (is_finite && known.insert(cell).second) {
+            const bool is_finite = std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
+            if (is_finite && known.add(x)) {
                 m_edges.push_back({edges[edge].number, begin, order});
             } else {
                 m_coefficients.resize(begin);

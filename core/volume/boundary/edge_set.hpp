@@ -9,6 +9,7 @@
 #include <core/volume/boundary/element_faces.hpp>
 #include <core/volume/device_volume.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,8 @@ public:
     /** A field must be selected in `data`. */
     EdgeSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, std::span<const ElementFace> faces,
             const TaskControl* control);
+    /** In double precision, of a volume that is not on a device but evaluates on the CPU. */
+    EdgeSet(const RuntimeVolume& volume, std::span<const ElementFace> faces, const TaskControl* control);
 
     struct Edge {
         /** Of the element that has it; of several the first one. */
@@ -41,6 +44,10 @@ public:
     double rounding() const { return m_rounding; }
 
 private:
+    template <class Sampler>
+    void add(const RuntimeVolume& volume, std::span<const ElementFace> faces, const std::array<double, 6>& bounds,
+             const TaskControl* control, const Sampler& sampled);
+
     std::vector<Edge> m_edges;
     std::vector<double> m_coefficients;
     double m_rounding = 0;

@@ -164,6 +164,9 @@ bool edit_elements(Ui& ui, Json& surface) {
 
 bool edit_wireframe(Ui& ui, Json& frame) {
     bool is_changed = slider(ui, "wires/width", "Width", frame, "width", 1, 1, 16, "In pixels");
+    is_changed = check(ui, "wires/undeformed", "Without displacement", frame, "undeformed", false,
+                       "Where they were before the volume was displaced") ||
+                 is_changed;
     const auto is_said = [&](const char* key) { return frame.contains(key); };
     bool has_condition = std::ranges::any_of(conditions, is_said);
     if (check(ui, "wires/elements", "Of chosen elements", has_condition, "Else of the boundary")) {
