@@ -535,6 +535,10 @@ PYBIND11_MODULE(_elvis, module) {
             [](const Picture& picture, const std::string& path, std::uint32_t bits) { picture.get().write_svg(path, bits); },
             py::arg("path"), py::arg("bits"))
         .def(
+            "write_pdf",
+            [](const Picture& picture, const std::string& path, std::uint32_t bits) { picture.get().write_pdf(path, bits); },
+            py::arg("path"), py::arg("bits"))
+        .def(
             "write_buffers", [](const Picture& picture, const std::string& path) { picture.get().write_buffers(path); },
             py::arg("path"))
         .def_property_readonly("width", [](const Picture& picture) { return picture.info().width; })

@@ -5,10 +5,12 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_GLYPH_H
+#include FT_OUTLINE_H
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 namespace elvis {
 
@@ -47,24 +49,80 @@ Mask mask_of(const FT_BitmapGlyph glyph) {
     return mask;
 }
 
+/** Collects an outline in units of the font. */
+struct OutlineSteps {
+    std::vector<GlyphOutline::Step> steps{};
+    Point2 at{};
+
+    static Point2 point(const FT_Vector* from) { return {static_cast<double>(from->x), static_cast<double>(from->y)}; }
+    static Point2 between(const Point2& a, const Point2& b, double share) {
+        return {a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])};
+    }
+    int add(GlyphOutline::Step::Kind kind, const Point2& first, const Point2& second, const Point2& end) {
+        steps.push_back({kind, {first, second, end}});
+        at = end;
+        return 0;
+    }
+    static int begin(const FT_Vector* to, void* own) {
+        return static_cast<OutlineSteps*>(own)->add(GlyphOutline::Step::Kind::begin, {}, {}, point(to));
+    }
+    static int line(const FT_Vector* to, void* own) {
+        return static_cast<OutlineSteps*>(own)->add(GlyphOutline::Step::Kind::line, {}, {}, point(to));
+    }
+    /** The cubic curve that is the quadratic one. */
+    static int conic(const FT_Vector* control, const FT_Vector* to, void* own) {
+        auto* const all = static_cast<OutlineSteps*>(own);
+        const Point2 middle = point(control), end = point(to);
+        return all->add(GlyphOutline::Step::Kind::curve, between(all->at, middle, 2.0 / 3), between(end, middle, 2.0 / 3), end);
+    }
+    static int cubic(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* own) {
+        return static_cast<OutlineSteps*>(own)->add(GlyphOutline::Step::Kind::curve, point(first), point(second), point(to));
+    }
+};
+
 } // namespace
 
 struct Font::Impl {
     std::unique_ptr<FT_LibraryRec_, LibraryDone> library;
     std::unique_ptr<FT_FaceRec_, FaceDone> face;
+    /** By glyph. */
+    std::map<FT_UInt, std::shared_ptr<const GlyphOutline>> outlines{};
+
+    const std::shared_ptr<const GlyphOutline>& outline(FT_UInt glyph) {
+        std::shared_ptr<const GlyphOutline>& known = outlines[glyph];
+        if (!known) {
+            auto made = std::make_shared<GlyphOutline>();
+            OutlineSteps all;
+            const FT_Outline_Funcs functions = {
+                &OutlineSteps::begin, &OutlineSteps::line, &OutlineSteps::conic, &OutlineSteps::cubic, 0, 0};
+            if (FT_Load_Glyph(face.get(), glyph, FT_LOAD_NO_SCALE) == 0) {
+                FT_Outline_Decompose(&face->glyph->outline, &functions, &all);
+                made->advance = static_cast<double>(face->glyph->advance.x) / face->units_per_EM;
+            }
+            for (GlyphOutline::Step& step : all.steps) {
+                for (Point2& point : step.points) {
+                    point = {point[0] / face->units_per_EM, point[1] / face->units_per_EM};
+                }
+            }
+            made->steps = std::move(all.steps);
+            known = std::move(made);
+        }
+        return known;
+    }
 
     void set_size(double size) const {
         // At 72 dots per inch a point is a pixel.
         FT_Set_Char_Size(face.get(), 0, std::max<FT_F26Dot6>(1, std::lround(units_per_pixel * size)), 72, 72);
     }
 
-    /** Calls visit(x) for every glyph, which is loaded, at its place; returns the end. */
+    /** Calls visit(x, character) for every glyph, which is loaded, at its place; returns the end. */
     template <class Visit> double walk(const std::string& text, FT_Int32 flags, const Visit& visit) const {
         double x = 0;
         FT_UInt previous = 0;
         for (char32_t character : decode_utf8(text)) {
             const bool is_control = character < 0x20 || character == 0x7F;
-            const FT_UInt glyph = FT_Get_Char_Index(face.get(), is_control ? U' ' : character);
+            character = is_control ? U' ' : character;
+            const FT_UInt glyph = FT_Get_Char_Index(face.get(), character);
             FT_Vector kerning{};
             if (previous != 0 && FT_Get_Kerning(face.get(), previous, glyph, FT_KERNING_UNFITTED, &kerning) == 0) {
                 x += static_cast<double>(kerning.x) / units_per_pixel;
@@ -73,7 +131,7 @@ struct Font::Impl {
             if (FT_Load_Glyph(face.get(), glyph, flags) != 0) {
                 continue;
             }
-            visit(x);
+            visit(x, character);
             x += static_cast<double>(face->glyph->linearHoriAdvance) / linear_pixel;
         }
         return x;
@@ -116,7 +174,7 @@ Font::~Font() = default;
 
 double Font::advance(const std::string& text, double size) const {
     m_impl->set_size(size);
-    return m_impl->walk(text, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP, [](double) {});
+    return m_impl->walk(text, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP, [](double, char32_t) {});
 }
 
 Mask Font::text(const std::string& text, double size, bool is_upwards) const {
@@ -125,8 +183,10 @@ Mask Font::text(const std::string& text, double size, bool is_upwards) const {
     // blur.
     const FT_Int32 flags = FT_LOAD_NO_BITMAP | (is_upwards ? FT_LOAD_NO_HINTING : FT_LOAD_TARGET_LIGHT);
     std::vector<Mask> masks;
+    std::vector<std::pair<FT_UInt, PlacedGlyph>> glyphs;
     PixelBox box;
-    const double advance = m_impl->walk(text, flags, [&](double x) {
+    const double advance = m_impl->walk(text, flags, [&](double x, char32_t character) {
+        glyphs.push_back({m_impl->face->glyph->glyph_index, {character, x, nullptr}});
         FT_Glyph raw = nullptr;
         if (FT_Get_Glyph(m_impl->face->glyph, &raw) != 0) {
             return;
@@ -150,15 +210,20 @@ Mask Font::text(const std::string& text, double size, bool is_upwards) const {
         unite(line, mask);
     }
     const char* const family = m_impl->face->family_name;
-    line.text = std::make_shared<const TextLine>(
+    auto own = std::make_shared<TextLine>(
         TextLine{text, family != nullptr ? family : "", size, advance, is_upwards, {-double(box.left), -double(box.top)}});
+    for (auto& [glyph, placed] : glyphs) {
+        placed.outline = m_impl->outline(glyph);
+        own->glyphs.push_back(std::move(placed));
+    }
+    line.text = std::move(own);
     return line;
 }
 
 double Font::digit_height(double size) const {
     m_impl->set_size(size);
     double height = 0;
-    m_impl->walk("0", FT_LOAD_NO_BITMAP | FT_LOAD_TARGET_LIGHT, [&](double) {
+    m_impl->walk("0", FT_LOAD_NO_BITMAP | FT_LOAD_TARGET_LIGHT, [&](double, char32_t) {
         // With light hinting the top of a digit lies on a whole row.
         height = static_cast<double>(m_impl->face->glyph->metrics.horiBearingY) / units_per_pixel;
     });

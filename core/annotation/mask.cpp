@@ -61,6 +61,10 @@ Mask empty_mask(const PixelBox& box) {
     return {box, std::vector<float>(n), {}, {}};
 }
 
+bool is_on_pixels(const Mask& mask) {
+    return mask.polygon.size() == 4 && std::ranges::all_of(mask.coverage, [](float part) { return part == 1.0f; });
+}
+
 void unite(Mask& onto, const Mask& other) {
     const PixelBox common = {std::max(onto.box.left, other.box.left), std::max(onto.box.top, other.box.top),
                              std::min(onto.box.right, other.box.right), std::min(onto.box.bottom, other.box.bottom)};

@@ -37,6 +37,25 @@ PixelBox moved(const PixelBox& box, int right, int down);
 /** On each side. */
 PixelBox grown(const PixelBox& box, int by);
 
+/** The outline of a glyph in ems, y upwards, filled by the non-zero rule; and how far it advances. */
+struct GlyphOutline {
+    /** Begins a contour at points[2], which ends where it began; goes straight there; or by a cubic Bezier curve. */
+    struct Step {
+        enum class Kind { begin, line, curve } kind = Kind::begin;
+        std::array<Point2, 3> points{};
+    };
+    std::vector<Step> steps;
+    double advance = 0;
+};
+
+struct PlacedGlyph {
+    char32_t character = 0;
+    /** Of its origin on the baseline, in pixels from where that begins. */
+    double x = 0;
+    /** The same for all places of a glyph. */
+    std::shared_ptr<const GlyphOutline> outline;
+};
+
 /** One line of text. */
 struct TextLine {
     std::string text, family;
@@ -46,6 +65,7 @@ struct TextLine {
     bool is_upwards = false;
     /** Where the baseline begins, from the upper left corner of the mask's box. */
     Point2 baseline{};
+    std::vector<PlacedGlyph> glyphs{};
 };
 
 /** Coverage of the pixels of a box, from 0 to 1, top row first; and what it is of, for files that hold shapes. */
@@ -59,6 +79,9 @@ struct Mask {
 };
 
 Mask empty_mask(const PixelBox& box);
+
+/** A rectangle on whole pixels, as rows of colour bars are. */
+bool is_on_pixels(const Mask& mask);
 
 /** Each pixel the larger of both; the box of `onto` stays. */
 void unite(Mask& onto, const Mask& other);

@@ -70,12 +70,6 @@ std::string svg_shape(const Mask& mask, const std::string& look) {
     return mask.polygon.empty() ? std::string() : svg_polygon(mask.box, mask.polygon, look);
 }
 
-/** A rectangle on whole pixels, as rows of colour bars are: smoothed edges would let what is behind shine through between them.
- */
-bool is_on_pixels(const Mask& mask) {
-    return mask.polygon.size() == 4 && std::ranges::all_of(mask.coverage, [](float part) { return part == 1.0f; });
-}
-
 PixelBox box_of(const Drawing& drawing, double halo_radius, const Frame& frame) {
     const PixelBox box = grown(drawing.box(), static_cast<int>(std::ceil(halo_radius)));
     return {std::max(box.left, 0), std::max(box.top, 0), std::min(box.right, static_cast<int>(frame.width)),
@@ -129,6 +123,7 @@ std::string svg_elements(const AnnotationPlan& plan, const Frame& frame) {
             text += "</g>\n";
         }
         for (const Drawing::Shape& shape : item.drawing.shapes()) {
+            // Smoothed edges would let what is behind shine through between rows of colour bars.
             text += svg_shape(shape.mask, svg_color("fill", shape.color.value_or(colors.ink)) +
                                               (is_on_pixels(shape.mask) ? " shape-rendering=\"crispEdges\"" : ""));
         }

@@ -3,6 +3,7 @@
 
 #include <core/scene/output/buffers_file.hpp>
 #include <core/scene/output/png_file.hpp>
+#include <core/session/pdf_picture.hpp>
 #include <core/session/svg_picture.hpp>
 
 namespace elvis::library {
@@ -127,6 +128,13 @@ elvis_result elvis_picture_write_svg(const elvis_picture* picture, elvis_string 
     return call(picture, [&] {
         need(path, "path");
         write_svg_picture(still_of(*picture), path, bits_of(bits));
+    });
+}
+
+elvis_result elvis_picture_write_pdf(const elvis_picture* picture, elvis_string path, uint32_t bits) {
+    return call(picture, [&] {
+        need(path, "path");
+        write_pdf_picture(still_of(*picture), path, bits_of(bits));
     });
 }
 

@@ -55,6 +55,15 @@ void annotate_still(const AnnotationRequest& annotation, StillPicture& still) {
     }
 }
 
+Frame without_annotation(const StillPicture& still) {
+    Frame bare;
+    bare.width = still.frame.width;
+    bare.height = still.frame.height;
+    bare.color = still.frame.color;
+    uncover(bare, still.covered);
+    return bare;
+}
+
 void finish_still(const Scene& scene, const RuntimeVolume& volume, StillPicture& still) {
     if (scene.annotation) {
         annotate_still(make_annotation_request(*scene.annotation, still.request, still.frame, volume), still);

@@ -49,6 +49,9 @@ void finish_still(const Scene& scene, const RuntimeVolume& volume, StillPicture&
 /** Writes that on a picture that is drawn. */
 void annotate_still(const AnnotationRequest& annotation, StillPicture& still);
 
+/** Size and colours alone, of the picture below what is written on it. */
+Frame without_annotation(const StillPicture& still);
+
 /** What people should know of a request: what its makers say, and the density that people did not choose. */
 std::vector<FrameRemark> remarks_on(const Scene& scene, const FrameRequest& request);
 

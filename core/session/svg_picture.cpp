@@ -32,11 +32,7 @@ std::string base64(std::span<const unsigned char> bytes) {
 } // namespace
 
 std::string svg_picture(const StillPicture& still, int bits) {
-    Frame bare;
-    bare.width = still.frame.width;
-    bare.height = still.frame.height;
-    bare.color = still.frame.color;
-    uncover(bare, still.covered);
+    const Frame bare = without_annotation(still);
     const std::string width = std::to_string(bare.width), height = std::to_string(bare.height);
     std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
                        "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"";

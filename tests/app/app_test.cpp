@@ -341,6 +341,7 @@ constexpr BadCommand bad_commands[] = {
     {"render ball.h5 --volume levels.json -o x.png", 1, "levels.json: 'density[1]' is -2; it must be at least 0"},
     {"render ball.h5 --volume preset.json -o x.png", 1, "preset.json: has no list Points"},
     {"render ball.h5 --volume missing.json -o x.png", 1, "missing.json: cannot be read"},
+    {"render ball.h5 --undeformed-edges -o x.png", 2, "--undeformed-edges: means nothing without --warp"},
     {"render ball.h5 --integrator exact -o x.png", 2, "--integrator: means nothing without --volume"},
     {"render ball.h5 --volume default --integrator simpson -o x.png", 2, "adaptive-trapezoid"},
     {"render ball.h5 --volume default --volume-step 0.1 -o x.png", 2, "--volume-step: is of the integrators riemann"},

@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 import unittest
+import zlib
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -42,6 +43,38 @@ class Pictures(WithVolume):
             self.assertEqual(own.read(), launcher.read())
         again = elvis.Scene.read(self.path("scene.json"))
         np.testing.assert_array_equal(again.render().color, scene.render().color)
+
+    def test_pdf_has_the_pixels_of_the_picture_without_annotation(self):
+        scene = self.scene()
+        scene.image.size = [200, 150]
+        scene.camera.eye = [3, 2, 2]
+        scene.camera.look_at = [0, 0, 0]
+        scene.render().save(self.path("bare.png"), bits=16)
+        scene.image.annotation = {"title": "p"}
+        scene.render().save(self.path("annotated.PDF"), bits=16)
+        with open(self.path("annotated.PDF"), "rb") as file:
+            data = file.read()
+        self.assertNotIn(b"/SMask", data)
+        # The compressed rows of the PNG.
+        image = re.search(rb"/ColorSpace /DeviceRGB [^>]*/Columns 200 >> /Length ([0-9]+) >>\nstream\n", data)
+        with open(self.path("bare.png"), "rb") as file:
+            rows = b"".join(re.findall(rb"IDAT(.*?)....(?=....(?:IDAT|IEND))", file.read(), re.S))
+        self.assertEqual(data[image.end():image.end() + int(image[1])], rows)
+
+    def test_pdf_is_as_transparent_as_the_picture(self):
+        scene = self.scene()
+        scene.image.size = [40, 30]
+        scene.camera.eye = [3, 2, 2]
+        scene.camera.look_at = [0, 0, 0]
+        scene.image.background = [1, 1, 1, 0.25]
+        picture = scene.render()
+        picture.save(self.path("transparent.pdf"))
+        with open(self.path("transparent.pdf"), "rb") as file:
+            data = file.read()
+        alpha = re.search(rb"/ColorSpace /DeviceGray [^>]*/Length ([0-9]+) >>\nstream\n", data)
+        levels = np.frombuffer(zlib.decompress(data[alpha.end():alpha.end() + int(alpha[1])]), np.uint8).reshape(30, 40)
+        np.testing.assert_array_equal(levels, picture.color[..., 3])
+        self.assertEqual((levels.min(), levels.max()), (64, 255))
 
     def test_svg_has_the_pixels_of_the_picture_without_annotation(self):
         scene = self.scene()

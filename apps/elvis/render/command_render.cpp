@@ -45,8 +45,10 @@ void add_surfaces(CLI::App& command, RenderArguments& a) {
     command.add_option("input", a.inputs,
                        "Scene file (JSON), or volume, whatever its format (geometry first, then field files); of several "
                        "scenes a picture each");
-    command.add_option("-o,--output", a.output,
-                       "Picture to write (PNG), or folder for those of an animation or of several scenes");
+    command.add_option(
+        "-o,--output", a.output,
+        "Picture to write (PNG; SVG or PDF with annotation as shapes and text), or folder for those of an animation or of "
+        "several scenes");
     command.add_option("--field", a.field,
                        "Field, component or expression: p, u[0], \"norm(curl(u))\"; a vector alone means its magnitude");
     command.add_option(

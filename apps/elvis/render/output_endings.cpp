@@ -7,9 +7,17 @@
 
 namespace elvis::commands {
 
+namespace {
+
+std::string in_lower_case(std::string name) {
+    std::ranges::transform(name, name.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    return name;
+}
+
+} // namespace
+
 void need_ending(const char* option, const std::string& name, std::initializer_list<const char*> endings) {
-    std::string lower = name;
-    std::ranges::transform(lower, lower.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+    const std::string lower = in_lower_case(name);
     std::string list;
     for (const char* ending : endings) {
         // A name that is an ending and nothing else has none.
@@ -23,12 +31,17 @@ void need_ending(const char* option, const std::string& name, std::initializer_l
 
 void need_picture_ending(const char* option, const std::string& name) { need_ending(option, name, {".png"}); }
 
-void need_still_ending(const char* option, const std::string& name) { need_ending(option, name, {".png", ".svg"}); }
+void need_still_ending(const char* option, const std::string& name) { need_ending(option, name, {".png", ".svg", ".pdf"}); }
 
-bool is_svg(const std::string& name) {
-    std::string lower = name;
-    std::ranges::transform(lower, lower.begin(), [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-    return lower.ends_with(".svg");
+void write_still(const picture& drawn, const std::string& name, std::uint32_t bits) {
+    const std::string lower = in_lower_case(name);
+    if (lower.ends_with(".svg")) {
+        drawn.write_svg(name, bits);
+    } else if (lower.ends_with(".pdf")) {
+        drawn.write_pdf(name, bits);
+    } else {
+        drawn.write_png(name, bits);
+    }
 }
 
 void need_hdf5_ending(const char* option, const std::string& name) { need_ending(option, name, {".h5", ".hdf5"}); }

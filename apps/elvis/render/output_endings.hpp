@@ -4,6 +4,9 @@
  */
 #pragma once
 
+#include <elvis/elvis.hpp>
+
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 
@@ -14,10 +17,10 @@ void need_ending(const char* option, const std::string& name, std::initializer_l
 
 /** Of pictures that are drawn in parts: PNG. */
 void need_picture_ending(const char* option, const std::string& name);
-/** Of single pictures: PNG, or SVG with annotation as shapes and text. */
+/** Of single pictures: PNG, or SVG or PDF with annotation as shapes and text. */
 void need_still_ending(const char* option, const std::string& name);
-/** By its ending. */
-bool is_svg(const std::string& name);
+/** In the format of the ending. `bits` (8 or 16) a channel. */
+void write_still(const picture& drawn, const std::string& name, std::uint32_t bits);
 /** Of HDF5 files. */
 void need_hdf5_ending(const char* option, const std::string& name);
 /** Of films, as ffmpeg knows them by their endings. */

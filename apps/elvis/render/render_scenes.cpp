@@ -205,8 +205,7 @@ void render_picture(const Wanted& wanted, const data& volume, double load_millis
         volume.render(wanted.shown, options, watch);
         repeated.push_back(milliseconds_since(frame_start));
     }
-    const auto bits = static_cast<std::uint32_t>(arguments.bits);
-    is_svg(arguments.output) ? drawn.write_svg(arguments.output, bits) : drawn.write_png(arguments.output, bits);
+    write_still(drawn, arguments.output, static_cast<std::uint32_t>(arguments.bits));
     if (!arguments.buffers.empty()) {
         drawn.write_buffers(arguments.buffers);
     }

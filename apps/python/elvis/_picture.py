@@ -99,9 +99,10 @@ class Picture:
         return plot(self, ax, color_bar)
 
     def save(self, path: str | os.PathLike, bits: int = 8) -> None:
-        """Writes the file of `elvis render`: PNG, or SVG if the name ends so, with annotation as shapes and text; bits a channel: 8 or 16."""
+        """Writes the file of `elvis render`: PNG, or by the name's ending SVG or PDF with annotation as shapes and text; bits a channel: 8 or 16."""
         name = os.fspath(path)
-        (self._handle.write_svg if name.lower().endswith(".svg") else self._handle.write_png)(name, bits)
+        writers = {".svg": self._handle.write_svg, ".pdf": self._handle.write_pdf}
+        writers.get(os.path.splitext(name)[1].lower(), self._handle.write_png)(name, bits)
 
     def save_buffers(self, path: str | os.PathLike) -> None:
         """Writes the HDF5 file of `elvis render --buffers`."""

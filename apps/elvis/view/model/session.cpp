@@ -126,8 +126,7 @@ std::vector<std::string> Session::save_picture(const Scene& scene, const std::st
     auto options = detail::sized<elvis_render_options>();
     options.flags = ELVIS_RENDER_COLOR_ONLY;
     const elvis::picture drawn = opened().render(library_scene(scene), options);
-    const auto channel_bits = static_cast<std::uint32_t>(bits);
-    commands::is_svg(path) ? drawn.write_svg(path, channel_bits) : drawn.write_png(path, channel_bits);
+    commands::write_still(drawn, path, static_cast<std::uint32_t>(bits));
     std::vector<std::string> warnings;
     for (const elvis::picture::remark& remark : drawn.remarks()) {
         if (remark.is_warning) {

@@ -539,6 +539,11 @@ ELVIS_EXPORT elvis_result elvis_picture_write_png(const elvis_picture* picture, 
  * and text. The file appears whole or not at all. Since 0.2.
  */
 ELVIS_EXPORT elvis_result elvis_picture_write_svg(const elvis_picture* picture, elvis_string path, uint32_t bits);
+/**
+ * The picture as PDF, a page of 96 pixels an inch: its pixels, `bits` a channel, and the annotation as shapes and text. The
+ * file appears whole or not at all. Since 0.2.
+ */
+ELVIS_EXPORT elvis_result elvis_picture_write_pdf(const elvis_picture* picture, elvis_string path, uint32_t bits);
 /** The file of `elvis render --buffers` (HDF5). */
 ELVIS_EXPORT elvis_result elvis_picture_write_buffers(const elvis_picture* picture, elvis_string path);
 

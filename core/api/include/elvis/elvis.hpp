@@ -217,6 +217,9 @@ public:
     void write_svg(const std::string& path, std::uint32_t bits = 8) const {
         check(elvis_picture_write_svg(get(), path.c_str(), bits));
     }
+    void write_pdf(const std::string& path, std::uint32_t bits = 8) const {
+        check(elvis_picture_write_pdf(get(), path.c_str(), bits));
+    }
     void write_buffers(const std::string& path) const { check(elvis_picture_write_buffers(get(), path.c_str())); }
     elvis_picture* get() const { return m_handle.get(); }
 
