@@ -6,7 +6,8 @@
 // isovalue, and which touch no edge of the face. A square that is not dropped is divided in four until it is smaller than the smallest
 // subpixels; if one is left then, the pixel stays undecided. What is hidden counts, too: a pixel may stay undecided for its sake, but is
 // never wrong. Of a closed boundary, though, rays enter and leave the volume in turn: all that they meet first they enter by, or all
-// leave by, as the pixel's own ray does. Squares that are met the other way are dropped, too.
+// leave by, as the pixel's own ray does. Squares that are met the other way are dropped, too. But where a square is met so near to the eye
+// that it does not count (core_near), rays may begin on either side of the boundary: such a square leaves the pixel undecided.
 //
 // A square of the face that the pixel shows may lie inside of the pyramid as a whole, facing the viewer like the pixel's point. Then
 // a line on it is met.
@@ -120,6 +121,8 @@ struct core_sight {
     bool is_absent;
     // The pixel sees all of it, on the side that it shows.
     bool is_seen;
+    // It may be met before crossings count.
+    bool may_precede;
     // It is as small as squares get.
     bool is_small;
 };
@@ -142,12 +145,15 @@ core_sight core_sight_of(core_surface surface, core_face_square square, core_ele
         elvis_real(2) * image.curvature * radius + max(max(inverse.xi_error.x, inverse.xi_error.y), inverse.xi_error.z);
     const elvis_real away = (surface.place.class_and_face & CORE_PLACE_ENTERS) != 0u ? elvis_real(1) : elvis_real(-1);
     const elvis_vec3 direction = surface.listed.ray.direction;
+    const elvis_real speed = length(direction), reach = speed * (length(image_a) + length(image_b) + both_errors);
+    const elvis_real ahead =
+        dot(direction, middle - surface.listed.tangent.point) + (surface.t + core_reference.w) * dot(direction, direction);
+    const bool is_in_front = ahead > reach;
+    sight.may_precede = core_is_closed != 0u && ahead - reach <= speed * core_near.x && ahead + reach >= elvis_real(0);
     sight.is_absent = square.is_beyond ||
                       core_least_depth(surface.pyramid, elvis_real(1), middle, image_a, image_b, error) < elvis_real(0) ||
-                      (core_is_closed != 0u && core_is_crossed_towards(away, inverse, square.face, change, direction));
-    const bool is_in_front = dot(direction, middle - surface.listed.tangent.point) +
-                                 (surface.t + core_reference.w) * dot(direction, direction) >
-                             length(direction) * (length(image_a) + length(image_b) + both_errors);
+                      (core_is_closed != 0u && !sight.may_precede &&
+                       core_is_crossed_towards(away, inverse, square.face, change, direction));
     sight.is_seen = is_shown && is_in_front &&
                     core_least_depth(surface.pyramid, elvis_real(-1), middle, image_a, image_b, both_errors) > elvis_real(0) &&
                     core_is_crossed_towards(-away, inverse, square.face, change, direction);
@@ -198,9 +204,9 @@ void core_ask(core_surface surface, inout core_line_search search) {
     core_line_marks lines = search.lines;
     const core_isovalue_test test = core_isovalues_in(image, sight.region);
     const bool leaves_contour =
-        is_judged && lines.wants_contour && !test.is_excluded && (is_shown || !lines.is_contour_open);
+        is_judged && lines.wants_contour && (!test.is_excluded || sight.may_precede) && (is_shown || !lines.is_contour_open);
     const bool leaves_mesh =
-        is_judged && lines.wants_mesh && (square.touches_edge || own.is_touched) && (is_shown || !lines.is_mesh_open);
+        is_judged && lines.wants_mesh && (square.touches_edge || own.is_touched || sight.may_precede) && (is_shown || !lines.is_mesh_open);
     // Beyond the face its field goes on, but is not shown.
     const bool is_all_face = !square.is_partly_beyond && !own.is_touched;
     core_record_lines(lines, is_seen && lines.wants_contour && is_all_face && test.is_met,
