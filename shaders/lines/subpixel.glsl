@@ -194,10 +194,13 @@ struct core_approach {
     // Another point of the element is so much nearer to the subpixel that more would be known from there.
     bool is_far;
     // The subpixel lies outside although the bound, which says nothing far away from a curved element, does not show it. The prediction's
-    // nearest element point is almost the point it was made from, and the subpixel is beyond a face by much more than their distance.
-    // Only an element that folds could still meet the surface elsewhere; of those no curvature is known.
+    // nearest element point is almost the point it was made from, and the subpixel is beyond a face by much more than their distance. Only
+    // an element that folds back could still meet the surface elsewhere, which none of a curvature below CORE_FOLDS_FROM was seen to do.
     bool is_clear;
 };
+
+// Some of 80 did.
+#define CORE_FOLDS_FROM elvis_real(16)
 
 core_approach core_approach_to(const core_subpixel subpixel, const core_element_image image) {
     const elvis_real radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
@@ -206,7 +209,7 @@ core_approach core_approach_to(const core_subpixel subpixel, const core_element_
     const elvis_real move = max(max(abs(x - image.xi.x), abs(y - image.xi.y)), abs(z - image.xi.z));
     core_approach approach;
     approach.is_far = move > elvis_real(0.25LF) * radius && move > elvis_real(16) * CORE_ROUNDOFF;
-    approach.is_clear = !approach.is_far && image.curvature < elvis_real(1e6LF) &&
+    approach.is_clear = !approach.is_far && image.curvature < CORE_FOLDS_FROM &&
                         subpixel.clearance > elvis_real(0.5LF) * radius + elvis_real(8) * move;
     return approach;
 }
