@@ -23,7 +23,7 @@ void main() {
     }
     elvis_real root_t = elvis_real(2), touch_from = elvis_real(2), touch_to = elvis_real(0);
 #if CORE_COLLEAGUE
-    const core_colleague_root root = core_first_root_by_colleague(chebyshev, elvis_real(0));
+    const core_colleague_root root = core_first_root_by_colleague(chebyshev, elvis_real(0), elvis_real(0));
     root_t = root.has_failed ? elvis_real(3) : root.t;
 #else
     const core_polynomial bernstein = core_to_bernstein(chebyshev);

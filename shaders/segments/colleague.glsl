@@ -26,16 +26,18 @@ struct core_colleague_root {
 elvis_real core_colleague_matrix[CORE_FIT_DEGREE * CORE_FIT_DEGREE];
 #define CORE_H(row, column) core_colleague_matrix[(row) * CORE_FIT_DEGREE + (column)]
 
-// Of the series p - value; the number of rows, less where leading coefficients are rounding.
-int core_colleague_fill(core_polynomial chebyshev, elvis_real value) {
+// Of the series p - value, of which no more is known than within `error`; the number of rows, less where leading coefficients are rounding or
+// too small to be known: divided by such a one, the others would be so large that rounding moves roots anywhere.
+int core_colleague_fill(core_polynomial chebyshev, elvis_real value, elvis_real error) {
     const elvis_real half_ = elvis_real(0.5LF);
     chebyshev.c[0] -= value;
     elvis_real largest = elvis_real(0);
     for (int k = 0; k < CORE_FIT_SIZE; ++k) {
         largest = max(largest, abs(chebyshev.c[k]));
     }
+    const elvis_real least = max(CORE_ROUNDOFF * largest, error / elvis_real(CORE_FIT_SIZE));
     int n = CORE_FIT_DEGREE;
-    while (n > 0 && abs(chebyshev.c[n]) <= CORE_ROUNDOFF * largest) {
+    while (n > 0 && abs(chebyshev.c[n]) <= least) {
         n -= 1;
     }
     for (int row = 0; row < n; ++row) {
@@ -174,9 +176,9 @@ elvis_real core_colleague_earlier(elvis_real t, elvis_real x) {
     return is_within ? min(t, clamp(candidate, elvis_real(0), elvis_real(1))) : t;
 }
 
-core_colleague_root core_first_root_by_colleague(core_polynomial chebyshev, elvis_real value) {
+core_colleague_root core_first_root_by_colleague(core_polynomial chebyshev, elvis_real value, elvis_real error) {
     core_colleague_root root = core_colleague_root(elvis_real(2), false);
-    const int n = core_colleague_fill(chebyshev, value);
+    const int n = core_colleague_fill(chebyshev, value, error);
     core_colleague_balance(n);
     elvis_real norm = elvis_real(0);
     for (int i = 0; i < n; ++i) {

@@ -85,7 +85,7 @@ void main() {
         results[to + 4u * k + 2u] = crossing.t;
         results[to + 4u * k + 3u] = crossing.upper - crossing.lower;
     }
-    const core_colleague_root root = core_first_root_by_colleague(chebyshev, elvis_real(0.5LF));
+    const core_colleague_root root = core_first_root_by_colleague(chebyshev, elvis_real(0.5LF), elvis_real(0));
     results[to + 48u] = root.has_failed ? elvis_real(3) : root.t;
 }
 )";
