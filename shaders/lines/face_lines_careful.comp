@@ -9,8 +9,8 @@
 // leave by, as the pixel's own ray does. Squares that are met the other way are dropped, too. But where a square is met so near to the eye
 // that it does not count (core_near), rays may begin on either side of the boundary: such a square leaves the pixel undecided.
 //
-// A square of the face that the pixel shows may lie inside of the pyramid as a whole, facing the viewer like the pixel's point. Then
-// a line on it is met.
+// A square of the face that the pixel shows may lie inside of the pyramid as a whole, facing the viewer like the pixel's point and all of
+// the face between. Then a line on it is met.
 
 layout(local_size_x = 32) in;
 
@@ -18,6 +18,7 @@ layout(local_size_x = 32) in;
 #include "lines/pixel_pyramid.glsl"
 #include "boundary/face_patch.glsl"
 #include "lines/isovalue_test.glsl"
+#include "lines/one_sheet.glsl"
 
 #define CORE_WORK_LIMIT 3000u
 // Levels of squares: from a patch that fills the picture down to subpixels.
@@ -199,7 +200,13 @@ void core_ask(core_surface surface, inout core_line_search search) {
         surface.may_find && square.element == surface.place.element && square.face == core_face_of(surface.place);
     const core_sight sight = core_sight_of(surface, square, image, is_shown);
     const core_own_edge own = core_own_edge_in(square, sight.region);
-    const bool is_judged = is_active && !sight.is_absent && !own.is_beyond, is_seen = is_judged && sight.is_seen;
+    const bool is_judged = is_active && !sight.is_absent && !own.is_beyond;
+    bool is_seen = is_judged && sight.is_seen;
+    if (is_seen && !CORE_HAS_TWO_DIMENSIONS) {
+        const elvis_vec3 shown = elvis_vec3(surface.place.x, surface.place.y, surface.place.z);
+        const bool enters = (surface.place.class_and_face & CORE_PLACE_ENTERS) != 0u;
+        is_seen = core_is_one_sheet(square.element, square.face, shown, square.xi, surface.listed.ray.direction, enters);
+    }
 
     core_line_marks lines = search.lines;
     const core_isovalue_test test = core_isovalues_in(image, sight.region);

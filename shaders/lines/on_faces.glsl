@@ -8,6 +8,7 @@
 #include "boundary/face_patch.glsl"
 #include "element/face_frame.glsl"
 #include "lines/surface_box.glsl"
+#include "lines/one_sheet.glsl"
 #include "lines/own_face.glsl"
 
 #define CORE_MOVES_FIRST 0
@@ -18,11 +19,11 @@ struct core_surface {
     // Where the pixel's own point lies, and whether that is an element of this class; rays enter the volume there.
     core_place place;
     bool is_shown_class, enters;
-    // Other faces that face the viewer are in view.
-    bool shows_others;
+    // Seen at so small an angle that what faces the viewer, too, may be another sheet, hidden behind a silhouette.
+    bool is_oblique;
 };
 
-// Cosine of the angle below which what neighbours see may be another sheet of the surface, not far behind a silhouette.
+// Cosine of that angle.
 #define CORE_OBLIQUE elvis_real(0.3LF)
 
 core_line_search core_begin_surface(core_listed_pixel listed, out core_surface surface) {
@@ -30,8 +31,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     surface.listed = listed;
     surface.place = place;
     surface.is_shown_class = core_class_of(place) == core_class;
-    surface.shows_others = listed.around.is_smooth && -dot(listed.tangent.normal, listed.ray.direction) >=
-                                                          CORE_OBLIQUE * length(listed.ray.direction);
+    surface.is_oblique = -dot(listed.tangent.normal, listed.ray.direction) < CORE_OBLIQUE * length(listed.ray.direction);
     surface.enters = (place.class_and_face & CORE_PLACE_ENTERS) != 0u;
     const core_cut_square corners =
         core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, elvis_real(0.5LF)));
@@ -92,7 +92,13 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     // A line is met on faces that face the viewer as the one that the pixel shows; both sides of an element of two dimensions do.
     const bool is_facing = CORE_HAS_TWO_DIMENSIONS || square.enters == surface.enters;
     const bool is_shown = core_is_shown_face(surface, search.item, search.own_face);
-    square.is_seen = square.is_seen && is_facing && (is_shown || surface.shows_others);
+    bool is_in_view = square.is_seen && is_facing && (is_shown || (surface.listed.around.is_smooth && !surface.is_oblique));
+    if (is_in_view && is_shown && surface.is_oblique && !CORE_HAS_TWO_DIMENSIONS) {
+        const elvis_vec3 shown = elvis_vec3(surface.place.x, surface.place.y, surface.place.z);
+        is_in_view = core_is_one_sheet(image.element, search.own_face, shown, square.subpixel.middle, surface.listed.ray.direction,
+                                       square.enters);
+    }
+    square.is_seen = is_in_view;
     // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
     const core_cut_square corners = square.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
