@@ -242,6 +242,9 @@ struct NearFlags {
     bool has_hidden = false;
 };
 
+/** Depths of neighbours that differ by this share may be of different layers. */
+constexpr double another_layer = 0.03;
+
 NearFlags flags_near(const Frame& frame, std::size_t pixel, double line_width) {
     const auto width = static_cast<int>(frame.width), height = static_cast<int>(frame.height);
     const int column = static_cast<int>(pixel) % width, row = static_cast<int>(pixel) / width;
@@ -253,7 +256,9 @@ NearFlags flags_near(const Frame& frame, std::size_t pixel, double line_width) {
             if ((r - row) * (r - row) + (c - column) * (c - column) <= reach * reach + 0.25) {
                 const auto there = static_cast<std::size_t>(r * width + c);
                 near.flags |= frame.flags[there];
-                near.has_hidden = near.has_hidden || std::isnan(frame.depth[there]);
+                // Or something far in front is cut away in one of the two.
+                near.has_hidden = near.has_hidden || std::isnan(frame.depth[there]) ||
+                                  std::abs(frame.depth[there] - frame.depth[pixel]) > another_layer * frame.depth[pixel];
             }
     return near;
 }
