@@ -34,6 +34,7 @@ FrameRequest looking_at(const View& view, std::uint32_t size) {
     request.camera.field_of_view = field_of_view;
     request.background = {1, 1, 1, 1};
     request.with_buffers = false;
+    request.for_screen = true;
     return request;
 }
 
