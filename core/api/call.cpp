@@ -1,6 +1,7 @@
 #include "call.hpp"
 
 #include <core/base/counted.hpp>
+#include <core/vulkan/memory_limit.hpp>
 
 #include <cstdlib>
 
@@ -37,6 +38,8 @@ elvis_result result_of_exception(const Context* context) noexcept {
         return fail(ELVIS_ERROR_INVALID_ARGUMENT, error.what());
     } catch (const UsageError& error) {
         return fail(ELVIS_ERROR_INVALID_ARGUMENT, error.what());
+    } catch (const OutOfMemory& error) {
+        return fail(ELVIS_ERROR_OUT_OF_MEMORY, error.what());
     } catch (const std::bad_alloc&) {
         return fail(ELVIS_ERROR_OUT_OF_MEMORY, "out of memory");
     } catch (const std::exception& error) {

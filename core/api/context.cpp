@@ -3,6 +3,7 @@
 #include <core/base/log.hpp>
 #include <core/plugin_host/unknown_file.hpp>
 #include <core/vulkan/device_choice.hpp>
+#include <core/vulkan/memory_limit.hpp>
 
 #include <iterator>
 
@@ -81,6 +82,7 @@ const Device& Context::device() {
     const std::lock_guard lock(m_mutex);
     if (!m_device) {
         m_device.emplace(wanted_device, is_validated);
+        limit_process_memory(*m_device, m_most_bytes);
         log_debug("device: {}", m_device->summary().name);
     }
     return *m_device;
@@ -90,9 +92,31 @@ const std::vector<std::unique_ptr<Device>>& Context::other_devices() {
     const std::lock_guard lock(m_mutex);
     for (std::size_t i = m_others.size(); i < m_wanted_others.size(); ++i) {
         m_others.push_back(std::make_unique<Device>(m_wanted_others[i], is_validated));
+        limit_process_memory(*m_others.back(), m_most_bytes);
         log_debug("device: {}", m_others.back()->summary().name);
     }
     return m_others;
+}
+
+void Context::limit_memory(std::uint64_t bytes) {
+    const std::lock_guard lock(m_mutex);
+    m_most_bytes = bytes;
+    if (m_device) {
+        limit_process_memory(*m_device, bytes);
+    }
+    for (const auto& other : m_others) {
+        limit_process_memory(*other, bytes);
+    }
+}
+
+void Context::forget_kernels() {
+    const std::lock_guard lock(m_mutex);
+    if (m_device) {
+        forget_pipelines(*m_device);
+    }
+    for (const auto& other : m_others) {
+        forget_pipelines(*other);
+    }
 }
 
 } // namespace elvis::library

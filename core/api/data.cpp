@@ -64,6 +64,16 @@ Prober& Data::prober(ProbeOptions::Evaluation evaluation) {
     return *m_prober;
 }
 
+void Data::forget_work() {
+    m_warped.reset();
+    m_others.clear();
+    m_renderer.reset();
+    m_prober.reset();
+    beside.clear();
+    streamlines = {};
+    arrow_sets = {};
+}
+
 std::shared_ptr<Data> Data::warped(const SceneWarp& warp, std::uint32_t time_step) {
     if (!m_warped || m_warped->warp != warp || m_warped->time_step != time_step) {
         if (!source) {

@@ -1,9 +1,11 @@
 #include "call.hpp"
 
+#include <core/base/memory.hpp>
 #include <core/scene/color/transfer.hpp>
 #include <core/scene/resolve.hpp>
 #include <core/scene/surface_distance.hpp>
 #include <core/scene/write/write_scene.hpp>
+#include <core/session/check_scene.hpp>
 
 #include <elvis/editing.h>
 
@@ -106,6 +108,35 @@ elvis_result elvis_scene_fit_camera(elvis_scene* scene, const elvis_extent* exte
         const Scene& own = scene->state.scene;
         const Camera camera = resolve_camera(own, whole, planes_looked_at(own, whole));
         place(scene->state, fitted(camera, whole, room_for_volume(own)));
+    });
+}
+
+elvis_result elvis_data_check_scene(const elvis_data* data, const elvis_scene* scene) {
+    return call(data, [&] {
+        need(scene, "scene");
+        check_scene(scene->state.scene, data->state->volume);
+    });
+}
+
+elvis_result elvis_context_limit_memory(elvis_context* context, std::uint64_t bytes) {
+    return call(context, [&] { context->state->limit_memory(bytes); });
+}
+
+elvis_result elvis_data_free_memory(elvis_data* data) {
+    return call(data, [&] {
+        {
+            const DataTask task(*data->state, nullptr);
+            data->state->forget_work();
+        }
+        data->state->context->forget_kernels();
+        give_back_free_memory();
+    });
+}
+
+elvis_result elvis_context_free_memory(elvis_context* context) {
+    return call(context, [&] {
+        context->state->forget_kernels();
+        give_back_free_memory();
     });
 }
 

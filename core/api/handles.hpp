@@ -50,6 +50,10 @@ struct Context {
     const Device& device();
     /** Those that draw besides, with ELVIS_CONTEXT_SEVERAL_DEVICES; opened when first asked for. */
     const std::vector<std::unique_ptr<Device>>& other_devices();
+    /** Those that nobody draws with, on devices that are open. */
+    void forget_kernels();
+    /** Main memory of the process, on devices that are open or will be; 0: no limit. */
+    void limit_memory(std::uint64_t bytes);
 
     /** First: all that follows works for it. */
     Host host;
@@ -61,6 +65,7 @@ struct Context {
 private:
     std::mutex m_mutex;
     std::optional<Device> m_device;
+    std::uint64_t m_most_bytes = 0;
     std::vector<std::string> m_wanted_others;
     std::vector<std::unique_ptr<Device>> m_others;
 };
@@ -83,6 +88,8 @@ struct Data {
     Prober& prober(ProbeOptions::Evaluation evaluation);
     /** Displaced; those before are given up. Throws Error where the geometry cannot be displaced so. */
     std::shared_ptr<Data> warped(const SceneWarp& warp, std::uint32_t time_step);
+    /** What pictures and values keep for those to come, on devices and beside them. */
+    void forget_work();
     /** Values of a field, or of all, have changed. */
     void forget_fields(std::optional<std::uint32_t> only);
     /** min x y z, max x y z. */

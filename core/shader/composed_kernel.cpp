@@ -4,6 +4,7 @@
 #include <core/base/milliseconds.hpp>
 #include <core/shader/compiler.hpp>
 #include <core/shader/request_records.hpp>
+#include <core/vulkan/memory_limit.hpp>
 
 #include <cassert>
 #include <chrono>
@@ -57,8 +58,10 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
                     .spirv = {},
                     .layout = layout_of(device, request),
                     .push_constant_bytes = request.push_constant_bytes};
-    m_building =
-        device.background().hand_over([this, &device, text = compose_text(device, request), code = std::move(code)]() mutable {
+    std::shared_ptr<void> room = need_kernel_room(device, m_name);
+    m_building = device.background().hand_over(
+        [this, &device, text = compose_text(device, request), code = std::move(code), room = std::move(room)]() mutable {
+            const std::shared_ptr<void> held = std::move(room);
             const auto start = std::chrono::steady_clock::now();
             code.spirv = compile_shader(text, m_name);
             const double compiler = milliseconds_since(start);
@@ -83,6 +86,8 @@ template <class Call> void ComposedKernel::watched(const Call& call) const {
     try {
         call();
     } catch (const Cancelled&) {
+        throw;
+    } catch (const OutOfMemory&) {
         throw;
     } catch (const Error& error) {
         // A lost device is most often a snippet's endless loop or a fetch beyond a record.

@@ -17,9 +17,9 @@ namespace {
 
 std::string mebibytes(std::uint64_t bytes) { return std::to_string((bytes + (1u << 20u) - 1) >> 20u) + " MiB"; }
 
-Error too_large(const Device::Impl& device, std::uint64_t bytes, const char* place, const std::string& reason) {
-    return Error(device.place(), std::string("no memory for ") + place + " of " + mebibytes(bytes) + ": " + reason + " (" +
-                                     mebibytes(device.allocated_bytes) + " are in use)");
+OutOfMemory too_large(const Device::Impl& device, std::uint64_t bytes, const char* place, const std::string& reason) {
+    return OutOfMemory(device.place(), std::string("no memory for ") + place + " of " + mebibytes(bytes) + ": " + reason +
+                                           " (" + mebibytes(device.allocated_bytes) + " are in use)");
 }
 
 void raise(std::atomic<std::uint64_t>& most, std::uint64_t bytes) {
@@ -30,6 +30,10 @@ void raise(std::atomic<std::uint64_t>& most, std::uint64_t bytes) {
 
 /** Below this, asking how much memory there is takes longer than it is worth. */
 constexpr std::uint64_t large_bytes = 64u << 20u;
+/** Smaller ones are not looked at where the process has a limit. */
+constexpr std::uint64_t noticed_bytes = 1u << 20u;
+/** What making a kernel takes at most, compiler and driver: 70 MiB were measured, of isosurfaces on a software device. */
+constexpr std::uint64_t kernel_bytes = 96u << 20u;
 
 } // namespace
 
@@ -43,6 +47,10 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
     // A driver for CPUs promises any amount, and the system ends the process once that is used.
     if (impl.summary.type == "cpu" && bytes >= large_bytes && bytes > available_bytes()) {
         throw too_large(impl, bytes, place, "the machine has " + mebibytes(available_bytes()) + " left");
+    }
+    if (impl.most_process_bytes != 0 && impl.summary.type == "cpu" && bytes >= noticed_bytes &&
+        resident_bytes() + bytes > impl.most_process_bytes) {
+        throw too_large(impl, bytes, place, "the process may hold " + mebibytes(impl.most_process_bytes));
     }
     if (impl.most_bytes != 0 && impl.allocated_bytes + bytes > impl.most_bytes) {
         throw too_large(impl, bytes, place, "the budget for its memory is " + mebibytes(impl.most_bytes));
@@ -253,5 +261,31 @@ void limit_memory(const Device& device, std::uint64_t bytes) {
 }
 
 std::uint64_t peak_allocated_bytes(const Device& device) { return device.impl().peak_bytes; }
+
+void limit_process_memory(const Device& device, std::uint64_t bytes) { device.impl().most_process_bytes = bytes; }
+
+std::shared_ptr<void> need_kernel_room(const Device& device, const std::string& kernel) {
+    Device::Impl& impl = device.impl();
+    const std::uint64_t most = impl.most_process_bytes;
+    const auto is_room = [&] { return most == 0 || resident_bytes() + (impl.n_in_making + 1) * kernel_bytes <= most; };
+    if (!is_room()) {
+        impl.background.finish();
+        give_back_free_memory(); // The compilers'.
+    }
+    if (!is_room()) {
+        throw OutOfMemory("kernel '" + kernel + "' on " + impl.place(),
+                          "the process holds " + mebibytes(resident_bytes()) + " of the " + mebibytes(most) + " that it may");
+    }
+    ++impl.n_in_making;
+    return {&impl, [](Device::Impl* on) { --on->n_in_making; }};
+}
+
+void forget_pipelines(const Device& device) {
+    Device::Impl& impl = device.impl();
+    impl.kept_pipelines.clear();
+    // lavapipe keeps what is destroyed until work is submitted.
+    impl.queue->record(CommandQueue::copies, [](VkCommandBuffer) {});
+    impl.queue->finish();
+}
 
 } // namespace elvis

@@ -77,6 +77,10 @@ struct Device::Impl {
     std::atomic<std::uint64_t> allocated_bytes{0};
     /** memory_limit.hpp; no limit is 0. */
     std::atomic<std::uint64_t> most_bytes{0}, peak_bytes{0};
+    /** Of main memory, all of the process; no limit is 0. */
+    std::atomic<std::uint64_t> most_process_bytes{0};
+    /** Kernels that are being made. */
+    std::atomic<std::uint64_t> n_in_making{0};
     std::atomic<std::uint64_t> n_buffers{0}, n_kernels{0};
 
     /** Guards the staging buffer; taken before the queue's. */

@@ -144,3 +144,69 @@ TEST_CASE("Transfer functions are told as volumes are drawn with them") {
     shown.set("/color_map", R"({"scale": "logarithmic"})");
     CHECK_THROWS_WITH(shown.transfer({0, 1}, 2), Catch::Contains("logarithmic"));
 }
+
+TEST_CASE("Whether a scene suits data is known before anything is drawn") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(library, folder));
+    const auto wrong = [&](const json& keys) -> std::string {
+        json document{{"version", 1}, {"camera", {{"eye", {3, 2, 1}}, {"look_at", {0, 0, 0}}}}};
+        document.update(keys);
+        try {
+            volume.check_scene(library.parse_scene(document.dump()));
+        } catch (const error& told) {
+            return told.what();
+        }
+        return {};
+    };
+    const std::string name = volume.field(0).name;
+    CHECK(wrong(json::object()).empty());
+    CHECK(wrong({{"field", "x + " + name}, {"color_map", {{"scale", "logarithmic"}}}, {"threshold", name + " > 0"}}).empty());
+    CHECK(wrong({{"surfaces",
+                  {{{"type", "plane"}, {"name", "cut"}, {"plane", {0, 0, 1, 0}}},
+                   {{"type", "isosurface"}, {"values", {0.5}}, {"color_field", "distance(cut)"}}}}})
+              .empty());
+    const auto surface = [](json keys) { return json{{"surfaces", json::array({std::move(keys)})}}; };
+    for (const auto& [keys, word] : std::vector<std::pair<json, std::string>>{
+             {{{"field", "nothing"}}, "'nothing' is unknown"},
+             {{{"threshold", "x > "}}, "where a value is expected"},
+             {surface({{"type", "boundary"}, {"visible", false}, {"field", "sqrt("}}), "sqrt("},
+             {surface({{"type", "streamlines"}, {"flow", "nothing"}}), "nothing"},
+             {surface({{"type", "arrows"}, {"vectors", "x"}}), "x"},
+             {surface({{"type", "isosurface"}, {"values", {0.5}}, {"color_field", "distance(none)"}}), "none"},
+             {{{"lic", {{"field", "x"}}}}, "x"},
+             {{{"warp", {{"field", "nothing"}}}}, "nothing"},
+             {{{"volume_rendering", {{"field", "y +"}}}}, "y +"}}) {
+        CAPTURE(keys.dump());
+        CHECK(wrong(keys).find(word) != std::string::npos);
+    }
+}
+
+TEST_CASE("Memory has a limit, beyond which no kernel is made, and is given back") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(library, folder));
+    const auto drawn = [&](const std::string& field) {
+        const json document{{"version", 1},
+                            {"field", field},
+                            {"image", {{"size", {40, 30}}}},
+                            {"surfaces", json::array({{{"type", "plane"}, {"plane", {0, 0, 1, 0}}}})}};
+        return volume.render(library.parse_scene(document.dump())).read<std::uint8_t>(ELVIS_CHANNEL_COLOR);
+    };
+    const auto first = drawn("x + 2 * y");
+    const auto n_kernels = [&] { return json::parse(library.describe_device())["n_kernels"].get<int>(); };
+    CHECK(n_kernels() > 0);
+    volume.free_memory();
+    CHECK(n_kernels() == 0);
+    library.free_memory();
+    library.limit_memory(1 << 20);
+    try {
+        drawn("x + 3 * y");
+        FAIL("there is no room");
+    } catch (const error& told) {
+        CHECK(told.result() == ELVIS_ERROR_OUT_OF_MEMORY);
+        CHECK(std::string(told.what()).find("that it may") != std::string::npos);
+    }
+    library.limit_memory(0);
+    CHECK(drawn("x + 2 * y") == first);
+}

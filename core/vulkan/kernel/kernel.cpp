@@ -7,9 +7,11 @@
 #include <core/vulkan/device_impl.hpp>
 #include <core/vulkan/kernel/descriptor_sets.hpp>
 #include <core/vulkan/kernel/dispatch_pace.hpp>
+#include <core/vulkan/memory_limit.hpp>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <functional>
@@ -93,6 +95,8 @@ struct Kernel::Impl {
     PipelinePool::Pipeline pipeline;
     /** With the pipeline, whose layout they have; none if there is nothing to bind. */
     std::shared_ptr<DescriptorSets> sets;
+    /** It has not run. */
+    std::atomic<bool> is_new = true;
     /** Guards the order of a dispatch's parts. */
     std::mutex mutex;
     /** Also of dispatches that are under way when the kernel ends. */
@@ -200,7 +204,10 @@ void Kernel::Impl::run(const CommandQueue::Record& dispatch, std::span<const Bou
         }
         dispatch(commands);
     };
+    // Drivers put off a part of making it until then.
+    const std::shared_ptr<void> room = is_new ? need_kernel_room(device, name) : nullptr;
     device.impl().queue->record(name, record, std::move(took));
+    is_new = false;
 }
 
 void Kernel::Impl::run_in_parts(const Groups& first, const Groups& groups, std::span<const BoundBuffer> bindings,

@@ -51,6 +51,32 @@ ELVIS_EXPORT elvis_result elvis_scene_fit_camera(elvis_scene* scene, const elvis
 ELVIS_EXPORT elvis_result elvis_scene_write_expression(const elvis_scene* scene, elvis_string text, char** expression);
 
 /**
+ * Whether the scene suits the data: fails as a picture would, with the same text, for fields and expressions that the data has
+ * not or that are none, and for conditions, flows and choices of elements that do not suit it. Hidden items count, too; scenes
+ * with several volumes are looked at with this one alone.
+ */
+ELVIS_EXPORT elvis_result elvis_data_check_scene(const elvis_data* data, const elvis_scene* scene);
+
+/**
+ * From now on, kernels and, on a processor, buffers are ELVIS_ERROR_OUT_OF_MEMORY that would make the process hold more main
+ * memory than so many bytes; 0: no limit. What the program itself takes is held, too, but is not limited. Kernels are counted
+ * before they are made, as large as any: with less than 96 MiB left none is made.
+ */
+ELVIS_EXPORT elvis_result elvis_context_limit_memory(elvis_context* context, uint64_t bytes);
+
+/**
+ * Gives back memory that the context keeps for pictures to come: kernels that nobody draws with, and what the C library holds.
+ * Pictures stay the same; those that need such kernels again take longer.
+ */
+ELVIS_EXPORT elvis_result elvis_context_free_memory(elvis_context* context);
+
+/**
+ * Gives back, besides, all that is kept of the data for pictures to come: buffers on devices, kernels, curves. The next picture
+ * makes them anew. Waits for calls that are under way.
+ */
+ELVIS_EXPORT elvis_result elvis_data_free_memory(elvis_data* data);
+
+/**
  * The transfer function of the scene's "volume_rendering", of an empty one if it has none. JSON object: `color` (value, red,
  * green, blue) and `density` (value, 1 / length), both linear between values, which ascend; colours are within 1e-4 of those
  * of the colour map. The ends of a colour map without a range are `range`; `diagonal`, of the volume's bounds, is for a density

@@ -326,6 +326,10 @@ public:
         check(elvis_data_describe(get(), &options, &c_watch, &text));
         return detail::taken(text);
     }
+    /** Throws error if the scene does not suit it: see elvis_data_check_scene. */
+    void check_scene(const scene& wanted) const { check(elvis_data_check_scene(get(), wanted.get())); }
+    /** See elvis_data_free_memory. */
+    void free_memory() const { check(elvis_data_free_memory(get())); }
     /** Without what takes long. */
     std::string describe_briefly() const {
         auto options = detail::sized<elvis_describe_options>();
@@ -604,6 +608,9 @@ public:
         check(elvis_context_describe_device(get(), &text));
         return detail::taken(text);
     }
+    /** See elvis_context_limit_memory and elvis_context_free_memory. */
+    void limit_memory(std::uint64_t bytes) const { check(elvis_context_limit_memory(get(), bytes)); }
+    void free_memory() const { check(elvis_context_free_memory(get())); }
     /** JSON: see elvis_context_describe_file. */
     std::string describe_file(const std::string& path) const {
         char* text = nullptr;
