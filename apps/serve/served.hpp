@@ -34,6 +34,8 @@ struct Served {
     ScenePaths paths;
     /** That the server may hold, in all sessions; 0: as many as there are. */
     std::uint64_t most_bytes = 0;
+    /** The device's memory is not the machine's. */
+    bool has_device_memory = false;
     TemporaryFolder pictures;
     mutable Histograms histograms;
     /** Sessions that draw or answer what somebody waits for: exact pictures of others make way. */
@@ -42,7 +44,8 @@ struct Served {
     Served(context library_, data volume_, view::VolumeFacts facts_, Scene first_, bool is_placed_, std::string folder_,
            ScenePaths paths_, std::uint64_t most_bytes_)
         : library(std::move(library_)), volume(std::move(volume_)), facts(std::move(facts_)), first(std::move(first_)),
-          is_placed(is_placed_), folder(std::move(folder_)), paths(std::move(paths_)), most_bytes(most_bytes_) {}
+          is_placed(is_placed_), folder(std::move(folder_)), paths(std::move(paths_)), most_bytes(most_bytes_),
+          has_device_memory(nlohmann::json::parse(library.describe_device()).value("type", "") != "cpu") {}
 
     /** What the library calls a scene. */
     elvis::scene library_scene(const Scene& scene) const { return library.parse_scene(scene.dump(), folder); }

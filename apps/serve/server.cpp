@@ -59,6 +59,7 @@ std::shared_ptr<const Served> open_served(const context& library, const Options&
     auto served = std::make_shared<const Served>(library, std::move(volume), std::move(facts), std::move(document), is_placed,
                                                  folder, std::move(paths), options.most_memory << 20u);
     need_memory(*served, 0);
+    library.limit_memory(served->most_bytes);
     return served;
 }
 

@@ -56,7 +56,9 @@ class BrowserCase(unittest.TestCase):
         while not os.path.exists(path) and time.monotonic() < end:
             time.sleep(0.1)
         with open(path, "rb") as file:
-            return file.read()
+            content = file.read()
+        os.remove(path)  # The next one of that name has another name otherwise.
+        return content
 
     def by_label(self, words):
         self.page.run("[...document.querySelectorAll('label')].find((l) => l.textContent.trim() === arguments[0]).querySelector('input').click()", words)

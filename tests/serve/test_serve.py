@@ -2,8 +2,10 @@
 import json
 import os
 import random
+import re
 import subprocess
 import tempfile
+import threading
 import time
 import unittest
 
@@ -390,6 +392,25 @@ class ServeTest(unittest.TestCase):
             line.close()
 
 
+class MostMemory:
+    """The most that a server holds, looked at all the time."""
+
+    def __init__(self, server):
+        self.value = 0
+        self.is_done = threading.Event()
+        self.thread = threading.Thread(target=self.look, args=(server,))
+        self.thread.start()
+
+    def look(self, server):
+        while not self.is_done.wait(0.003):
+            self.value = max(self.value, server.memory())
+
+    def stop(self):
+        self.is_done.set()
+        self.thread.join()
+        return self.value
+
+
 class LimitsTest(unittest.TestCase):
     def test_sessions_have_a_limit_and_share_the_volume(self):
         with tempfile.TemporaryDirectory(prefix="elvis-serve-test-") as folder:
@@ -415,16 +436,23 @@ class LimitsTest(unittest.TestCase):
                 self.assertEqual(server.stop(), 0)
 
     def test_memory_has_a_limit(self):
+        """It is kept: what would go beyond is refused, or stopped while it is drawn, and the server goes on."""
         with tempfile.TemporaryDirectory(prefix="elvis-serve-test-") as folder:
             volume = make_volume(folder)
-            server = Server(volume)
-            opened = server.memory()
-            self.assertEqual(server.stop(), 0)
             done = subprocess.run([PROGRAM, "serve", volume, "--port", "0", "--memory", "20"], capture_output=True, text=True)
             self.assertEqual(done.returncode, 1)
             self.assertIn("of the 20 MiB that it may (--memory)", done.stderr)
-            # Kernels and buffers of the first picture take more than this.
-            server = Server(volume, "--memory", str(int(opened) + 15))
+            margin = int(re.search(r"the last (\d+) are kept free", done.stderr)[1])
+            server = Server(volume)
+            opened = server.memory()
+            page = server.page(size=[160, 120])
+            page.exact()
+            limit = int(server.memory()) + 160
+            page.close()
+            self.assertEqual(server.stop(), 0)
+
+            server = Server(volume, "--memory", str(limit))
+            most = MostMemory(server)
             try:
                 page = server.page(size=[160, 120])
                 page.exact()
@@ -432,19 +460,44 @@ class LimitsTest(unittest.TestCase):
                                 page.ask(type="set", pointer="/image/size", value=[4000, 4000])):
                     self.assertEqual(refused["type"], "error")
                     self.assertIn("--memory", refused["text"])
-                with self.assertRaises(Refused) as refused:
-                    server.socket()
-                self.assertEqual(refused.exception.status, 503)
-                self.assertIn("--memory", str(refused.exception))
-                page.ask(type="orbit", dx=5, dy=0)
-                page.exact()  # What is there goes on.
+                # Each takes kernels of its own; those before go when it has to be. Others are more than there may be.
+                texts = [self.drawn(page, type="set", pointer="/field", value=f"p * {i}.5 + x") for i in range(1, 6)]
+                self.assertIn("", texts)
+                items = []
+                for name in ("Cut plane", "Isosurface", "Volume", "Streamlines", "Torus"):
+                    items.append(self.drawn(page, type="add", name=name, middle=0.5))
+                print(f"\nof {limit} MiB it held {most.stop():.0f} at most; of {len(items)} items {items.count('')} were drawn")
+                self.assertNotEqual(items[-1], "")
+                for text in [*texts, *items]:
+                    self.assertTrue(text == "" or "--memory" in text, text)
+                self.assertLessEqual(most.value, limit)
+                page.ask(type="load", scene={"version": 1})
+                self.assertEqual(self.drawn(page, type="set", pointer="/color_map", value={"name": "gray"}), "")  # What there is room for goes on.
                 page.close()
                 time.sleep(0.3)
                 again = server.page(session=page.session)
                 again.exact()
                 again.close()
             finally:
+                most.stop()
                 self.assertEqual(server.stop(), 0)
+
+            server = Server(volume, "--memory", str(int(opened) + margin + 5))
+            try:
+                with self.assertRaises(Refused) as refused:
+                    server.socket()
+                self.assertEqual(refused.exception.status, 503)
+                self.assertIn("--memory", str(refused.exception))
+            finally:
+                self.assertEqual(server.stop(), 0)
+
+    def drawn(self, page, **change):
+        """What is wrong with the change, or with its picture."""
+        answer = page.ask(**change)
+        if answer["type"] == "error":
+            return answer["text"]
+        told = page.wait(lambda m: m.get("revision", 0) >= page.state["revision"] and (m["type"] == "error" or m.get("stage") == "exact"))
+        return told.get("text", "")
 
     def test_wrong_arguments_are_errors(self):
         for arguments in (["missing.h5"], ["missing.json", "--port", "70000"], [__file__], ["missing.h5", "--sessions", "0"], ["missing.h5", "--memory", "0"]):

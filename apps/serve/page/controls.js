@@ -105,6 +105,15 @@ export function movable(target, does) {
 export const row = (caption, ...controls) =>
   element("p", {className: "row"}, [element("span", {className: "caption"}, [caption]), ...controls]);
 
+/**
+ * Marks a control by the place of the scene that it sets.
+ * @template {Element} T @param {string} place @param {T} node
+ */
+export function placed(place, node) {
+  node.setAttribute("data-place", place);
+  return node;
+}
+
 /** @param {string} label @param {string[]} words @param {string} value @param {(value: string) => void} onChange */
 export function choice(label, words, value, onChange) {
   const all = words.includes(value) ? words : [value, ...words];
@@ -164,15 +173,16 @@ export const hexOf = (rgb) =>
   "#" + rgb.map((x) => Math.round(255 * Math.min(1, Math.max(0, x))).toString(16).padStart(2, "0")).join("");
 
 /**
- * A colour to be chosen, and its numbers, which may be finer and, of light, above 1.
- * @param {string} label @param {number[]} rgb @param {(rgb: number[]) => void} onChange
+ * A colour to be chosen, and its numbers, which may be finer and, of light, above 1. A fourth is how opaque it is.
+ * @param {string} label @param {number[]} color @param {(color: number[]) => void} onChange @param {number} [most] numbers
  */
-export function colorControls(label, rgb, onChange) {
-  const input = /** @type {HTMLInputElement} */ (element("input", {type: "color", value: hexOf(rgb), "aria-label": label}));
-  input.onchange = () => onChange([1, 3, 5].map((at) => parseInt(input.value.slice(at, at + 2), 16) / 255));
-  const words = text(`${label}: red, green, blue`, rgb.map((x) => Number(x.toPrecision(4))).join(", "), (value) => {
+export function colorControls(label, color, onChange, most = 3) {
+  const input = /** @type {HTMLInputElement} */ (element("input", {type: "color", value: hexOf(color.slice(0, 3)), "aria-label": label}));
+  input.onchange = () => onChange([...[1, 3, 5].map((at) => parseInt(input.value.slice(at, at + 2), 16) / 255), ...color.slice(3)]);
+  const names = ["red", "green", "blue", "opacity"].slice(0, most).join(", ");
+  const words = text(`${label}: ${names}`, color.map((x) => Number(x.toPrecision(4))).join(", "), (value) => {
     const all = numbers(value);
-    if (all?.length === 3) {
+    if (all && all.length >= 3 && all.length <= most) {
       onChange(all);
     }
   });

@@ -1,6 +1,7 @@
 // Values along a line: its ends by two clicks or as numbers, the plot, and the values as text.
 import {button, buttons, element, numbers, row, text} from "./controls.js";
 import {plot} from "./plot.js";
+import {sceneText} from "./scene_text.js";
 
 /** @typedef {Record<string, any>} Json */
 
@@ -8,7 +9,7 @@ export class LineProbe {
   /**
    * @param {HTMLElement} parent
    * @param {{ask: (message: Json) => Promise<Json | null>, say: (text: string) => void, mark: (points: number[][]) => void,
-   *          download: (name: string, content: string, type: string) => void}} does
+   *          download: (name: string, content: string, type: string) => void, check: (pointer: string, value: any) => Promise<any>}} does
    */
   constructor(parent, does) {
     this.does = does;
@@ -25,13 +26,15 @@ export class LineProbe {
     this.choose = button("Click two points", () => this.setNext(this.next === null ? 0 : null), {"aria-pressed": "false"});
     this.inputs = ["First point of the line: x, y, z", "Last point of the line: x, y, z"].map((label, i) =>
       text(label, "", (words) => this.typed(i, words)));
-    this.input = text("Field along the line", "", (words) => { this.field = words; this.sample(); }, "fields");
+    const field = sceneText({place: "/field", caption: "Field", label: "Field along the line",
+      check: (words) => does.check("/field", words), put: (words) => { this.field = words ?? ""; this.sample(); }}, "", (words) => words || null, "fields");
+    this.input = field.input;
     this.shown = element("div", {id: "line-plot"});
     this.files = buttons(button("Copy values", () => this.copy()),
       button("Save values", () => does.download("line.csv", this.csv, "text/csv")));
     this.files.hidden = true;
     parent.replaceChildren(buttons(this.choose, button("Clear", () => this.clear())), row("From", this.inputs[0]), row("To", this.inputs[1]),
-      row("Field", this.input), this.shown, this.files);
+      ...field.rows, this.shown, this.files);
   }
 
   /** @param {number | null} next */

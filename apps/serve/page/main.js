@@ -1,7 +1,7 @@
 // What the page does: it shows the state that the server holds, and asks for changes.
 import {Connection} from "./connection.js";
-import {element, hand} from "./controls.js";
-import {showItem, showScene} from "./editor.js";
+import {element, hand, placed, text} from "./controls.js";
+import {showCamera, showItem, showScene} from "./editor.js";
 import {download, listenForFiles} from "./files.js";
 import {makeHistograms} from "./histograms.js";
 import {LineProbe} from "./line_probe.js";
@@ -45,13 +45,18 @@ const ask = (message) => connection.ask(message).catch((error) => { say(error); 
 
 const overlay = new Overlay($("marks"), {tell: (message) => connection.tell(message), release}, (x, y) => picture.place(x, y));
 const histograms = makeHistograms((message) => connection.ask(message));
+/**
+ * Raises what is wrong with a value at a place of the scene.
+ * @param {string} pointer @param {any} value
+ */
+const check = (pointer, value) => connection.ask({type: "check", pointer, value});
 const lineProbe = new LineProbe($("line"), {
-  ask, say, download,
+  ask, say, download, check,
   mark: (points) => ask({type: "overlay", points}).then(showOverlay),
 });
 let overlaid = "";
 /** What lists and editors were made of: what has not changed is left to the hand. */
-const shown = {items: "", editors: ""};
+const shown = {items: "", editors: "", camera: "", views: ""};
 
 /** @param {Json | null} told places of handles and points in the picture */
 function showOverlay(told) {
@@ -148,6 +153,10 @@ function doubtsOf(counts) {
 function showFrame(facts) {
   frame = facts;
   showOverlay(facts.overlay);
+  state.scene.camera = facts.camera;
+  if (facts.stage !== "moving") {
+    showCameraNumbers();
+  }
   $("mark").textContent = Picture.mark(facts.stage);
   document.body.dataset.stage = facts.stage;
   document.body.dataset.revision = facts.revision;
@@ -215,14 +224,41 @@ function showEditors() {
     return;
   }
   shown.editors = now;
-  const field = state.scene.field ?? volume.fields[0]?.name ?? "";
-  const context = {scene: state.scene, volume, sceneField: field, set, release, refuse, picked: () => pickedPoint, histograms};
+  const context = editorContext(), field = context.sceneField;
   keepFocus(() => showScene(context));
   lineProbe.follow(state.scene, field);
   $("item-section").hidden = !item;
   if (item) {
     $("item-title").textContent = item.label;
     keepFocus(() => showItem($("item-editor"), item, context));
+  }
+}
+
+/** @returns {import("./editor.js").Context} */
+function editorContext() {
+  const {scene} = state;
+  return {
+    scene, volume, sceneField: scene.field ?? volume.fields[0]?.name ?? "", set, check, release, refuse, histograms,
+    picked: () => pickedPoint,
+    begin: {transfer: async () => (await ask({type: "transfer"}))?.transfer ?? null},
+    more: {
+      // Two at least; each where one looks from now.
+      "key frames": (all) => {
+        const {eye, look_at, up} = scene.camera;
+        const next = (/** @type {Json[]} */ frames) => ({frame: frames.length ? frames[frames.length - 1].frame + 25 : 0, eye, look_at, up});
+        const one = [...all, next(all)];
+        return one.length > 1 ? one : [...one, next(one)];
+      },
+    },
+  };
+}
+
+/** The camera's numbers come when the hand rests. */
+function showCameraNumbers() {
+  const now = JSON.stringify(state.scene.camera);
+  if (now !== shown.camera && !$("camera-editor").contains(document.activeElement)) {
+    shown.camera = now;
+    showCamera(editorContext());
   }
 }
 
@@ -242,7 +278,7 @@ function keepFocus(work) {
   const parent = document.activeElement?.closest(".editor, #items");
   work();
   if (name && parent && !parent.contains(document.activeElement)) {
-    const all = [...parent.querySelectorAll("button, input, select, [tabindex]")];
+    const all = [...parent.querySelectorAll("button, input, select, textarea, [tabindex]")];
     /** @type {HTMLElement | undefined} */ (all.find((node) => nameOf(node) === name))?.focus();
   }
 }
@@ -301,12 +337,19 @@ function showViews() {
 
 function showSavedViews() {
   const views = state.scene.views ?? [];
+  const now = JSON.stringify(views);
+  if (now === shown.views) {
+    return;
+  }
+  shown.views = now;
   $("saved-views").replaceChildren(...views.map((/** @type {Json} */ view, /** @type {number} */ index) => {
-    const go = element("button", {className: "label"}, [view.name]);
+    const name = text(`Name of view ${index + 1}`, view.name, (words) => set(`/views/${index}/name`, words, "name of a view"));
+    placed(`/views/${index}/name`, name);
+    const go = element("button", {"aria-label": `Go to ${view.name}`}, ["Go"]);
     go.onclick = () => ask({type: "set", pointer: "/camera", value: view.camera, name: "view"});
     const remove = element("button", {"aria-label": `Remove ${view.name}`}, ["✕"]);
     remove.onclick = () => set(`/views/${index}`, null, "views");
-    return element("li", {}, [go, remove]);
+    return element("li", {}, [name, go, remove]);
   }));
 }
 

@@ -13,7 +13,8 @@ export function resolved(node) {
   const kind = node.$ref?.split("/").pop();
   const whole = kind ? {...schema.$defs[kind], ...node, kind} : node;
   const object = whole.anyOf?.map(resolved).find((/** @type {Json} */ one) => one.properties);
-  return object ? {...object, description: whole.description} : whole;
+  const mayBeText = whole.anyOf?.some((/** @type {Json} */ one) => one.type === "string");
+  return object ? {...object, description: whole.description, mayBeText} : whole;
 }
 
 /**
@@ -28,9 +29,11 @@ export const isMeaningful = (node, key, part) => Object.entries(node.properties[
  * @param {Json} node of the object @param {Json} part @param {string} key @param {any} value
  */
 export function withValue(node, part, key, value) {
-  const excluded = value === null ? [key] : node.properties[key].excludes ?? [];
   const next = {...part, [key]: value};
-  return Object.fromEntries(Object.entries(next).filter(([other]) => !excluded.includes(other) && isMeaningful(node, other, next)));
+  /** @param {string} one @param {string} other */
+  const excludes = (one, other) => node.properties[one].excludes?.includes(other);
+  const stays = (/** @type {string} */ other) => (value === null ? other !== key : !excludes(key, other) && !excludes(other, key));
+  return Object.fromEntries(Object.entries(next).filter(([other]) => stays(other) && isMeaningful(node, other, next)));
 }
 
 /**
@@ -47,7 +50,7 @@ export function start(node, context) {
     return Object.fromEntries((whole.required ?? []).map((/** @type {string} */ key) => [key, start(whole.properties[key], context)]));
   }
   if (whole.type === "array") {
-    return kinds[whole.kind] ?? Array(whole.minItems ?? 0).fill(0.5);
+    return kinds[whole.kind] ?? Array(whole.minItems ?? 0).fill(whole.items && resolved(whole.items).type === "array" ? start(whole.items, context) : 0.5);
   }
   return whole.default ?? whole.enum?.[0] ?? (whole.type === "string" ? offers(whole.format, context)[0] ?? "text" : whole.minimum ?? 1);
 }

@@ -1,16 +1,18 @@
 // Rows of controls for the keys of an object of the scene, made from its schema.
-import {button, buttons, check, choice, colorControls, element, number, numbers, row, slider, text} from "./controls.js";
+import {button, check, choice, colorControls, element, number, numbers, placed, row, slider, text} from "./controls.js";
 import {colorMapRows} from "./color_map_rows.js";
 import {planeRows} from "./plane_rows.js";
+import {pointRows} from "./point_rows.js";
+import {sceneText} from "./scene_text.js";
 import {formats, isMeaningful, resolved, start, withValue} from "./schema.js";
 
 /** @typedef {Record<string, any>} Json */
 /** @typedef {import("./editor.js").Context} Context */
 /**
  * A value of the scene. `place`: its JSON Pointer; `label`: for screen readers; `part`: the object that holds it; `put` sets
- * another value, null for none.
+ * another value, null for none; `check` raises what would be wrong with it.
  * @typedef {{place: string, caption: string, label: string, node: Json, value: any, part: Json, context: Context,
- *            put: (value: any, isDone?: boolean) => void}} Entry
+ *            put: (value: any, isDone?: boolean) => void, check: (value: any) => Promise<any>}} Entry
  */
 
 /** These have controls of their own, say what others do, or are the server's matter. */
@@ -25,16 +27,15 @@ export function objectRows(place, part, node, context, keys = Object.keys(node.p
   const shown = keys.filter((key) => !elsewhere.includes(key) && isMeaningful(node, key, part));
   return shown.flatMap((key) => {
     const caption = key.replaceAll("_", " ").replace("color", "colour");
-    const put = (/** @type {any} */ value, isDone = true) => {
+    /** @param {any} value @returns {[string, any]} what it changes */
+    const change = (value) => {
       const next = withValue(node, part, key, value);
-      const others = Object.keys(part).filter((other) => other !== key && !(other in next));
-      if (others.length > 0) {
-        context.set(place, next, caption, isDone);
-      } else {
-        context.set(`${place}/${key}`, value, caption, isDone);
-      }
+      const isAlone = Object.keys(part).every((other) => other === key || other in next);
+      return isAlone ? [`${place}/${key}`, value] : [place, next];
     };
-    return rowsOf({place: `${place}/${key}`, caption, label: label + caption, node: resolved(node.properties[key]), value: part[key], part, context, put});
+    return rowsOf({place: `${place}/${key}`, caption, label: label + caption, node: resolved(node.properties[key]), value: part[key], part, context,
+      put: (value, isDone = true) => context.set(...change(value), caption, isDone),
+      check: (value) => context.check(...change(value))});
   });
 }
 
@@ -45,13 +46,16 @@ export const keysBut = (node, ...but) => Object.keys(node.properties).filter((ke
 function rowsOf(entry) {
   const {node} = entry;
   const make = node.kind === "color_map" ? colorMapRows : node.kind === "plane" ? planeRows
-    : node.kind?.endsWith("color") ? colorRows
+    : node.kind?.endsWith("color") || (node.minItems === 3 && node.maxItems === 4) ? colorRows
     : node.properties ? partRows
     : node.anyOf ? wordOrColorRows
     : node.enum ? wordRows
     : makers[node.type];
   const rows = make?.(entry) ?? [];
   rows.filter((one) => !one.hasAttribute("title")).forEach((one) => one.setAttribute("title", node.description ?? ""));
+  if (rows.length > 0) {
+    placed(entry.place, rows[0]);
+  }
   return rows;
 }
 
@@ -64,14 +68,21 @@ const makers = {
   array: arrayRows,
 };
 
+/** @param {Json} node @returns {string | undefined} the list of what may be chosen */
+const listOf = (node) => (formats.includes(node.format) ? `${node.format}s` : undefined);
+
 /** @param {Entry} entry */
-function textRows({caption, label, node, value, put, context}) {
+function textRows(entry) {
+  const {label, node, value, put, context} = entry;
   // An empty text may be something else than none.
   const mayBeEmpty = node.examples?.includes("");
-  const input = text(label, value ?? "", (words) => put(mayBeEmpty ? words : words || null), formats.includes(node.format) ? `${node.format}s` : undefined);
+  const {input, rows} = sceneText(entry, value ?? "", (words) => (mayBeEmpty ? words : words || null), listOf(node));
   input.placeholder = node.format === "field" ? context.sceneField : "";
   input.hidden = mayBeEmpty && value === undefined;
-  return [row(caption, ...(mayBeEmpty ? [check("own", value !== undefined, (is) => put(is ? "" : null), `own ${label}`)] : []), input)];
+  if (mayBeEmpty) {
+    input.before(check("own", value !== undefined, (is) => put(is ? "" : null), `own ${label}`));
+  }
+  return rows;
 }
 
 /** @param {Entry} entry */
@@ -88,7 +99,7 @@ function wordRows({caption, label, node, value, put}) {
 /** @param {Entry} entry */
 function colorRows({caption, label, value, put, node, context}) {
   const own = check(value ? "" : "own", value !== undefined, (is) => put(is ? start(node, context) : null), `own ${label}`);
-  return [row(caption, own, ...(value ? colorControls(label, value, put) : []))];
+  return [row(caption, own, ...(value ? colorControls(label, value, put, node.maxItems) : []))];
 }
 
 /**
@@ -105,14 +116,17 @@ function wordOrColorRows({caption, label, node, value, put}) {
 }
 
 /**
- * An object that may be there.
+ * An object that may be there, or a text in its place.
  * @param {Entry} entry
  */
-function partRows({place, caption, label, node, value, put, context}) {
-  const isThere = value !== undefined;
+function partRows(entry) {
+  const {place, caption, label, node, value, put, context} = entry;
+  const isThere = typeof value === "object";
+  const begin = async () => put(await (context.begin[node.kind]?.() ?? start(node, context)));
   return [
-    row("", check(caption, isThere, (is) => put(is ? start(node, context) : null), label)),
-    ...(isThere ? [group(label, objectRows(place, value, node, context, undefined, `${label} `))] : []),
+    row("", check(caption, isThere, (is) => (is ? begin() : put(null)), label)),
+    ...(isThere ? [group(label, objectRows(place, value, node, context, undefined, `${label} `))]
+      : node.mayBeText ? sceneText({...entry, caption: `${caption} file`, label: `${label} file`}, value ?? "", (words) => words || null).rows : []),
   ];
 }
 
@@ -124,13 +138,15 @@ function arrayRows(entry) {
   const {caption, label, node, value, put, context} = entry;
   const items = resolved(node.items ?? {});
   const isFixed = node.minItems === node.maxItems && node.minItems <= 3;
+  if (items.type === "array" && items.kind === undefined) {
+    return pointRows(entry, items);
+  }
   if (items.type === "array" || items.properties) {
     return listRows(entry, items);
   }
   if (items.type === "string") {
-    const words = text(label, (value ?? []).join(", "), (all) => put(all ? all.split(",").map((word) => word.trim()).filter(Boolean) : null),
-      formats.includes(node.format) ? `${node.format}s` : undefined);
-    return [row(caption, words)];
+    const parts = (/** @type {string} */ words) => (words ? words.split(",").map((word) => word.trim()).filter(Boolean) : null);
+    return sceneText(entry, (value ?? []).join(", "), parts, listOf(node)).rows;
   }
   if (isFixed) {
     return node.minItems < 3 ? [row(caption, ...vector(entry))] : [...(caption ? [row(caption)] : []), element("p", {className: "row"}, vector(entry))];
@@ -188,8 +204,10 @@ function listRows({place, caption, label, value, put, context}, items) {
     const own = items.properties
       ? [group(name, objectRows(`${place}/${i}`, one, items, context, undefined, `${name} `))]
       : rowsOf({place: `${place}/${i}`, caption: "", label: name, node: items, value: one, part: {}, context,
-        put: (other, isDone) => other && context.set(`${place}/${i}`, other, caption, isDone)});
+        put: (other, isDone) => other && context.set(`${place}/${i}`, other, caption, isDone),
+        check: (other) => context.check(`${place}/${i}`, other)});
     return [row(`${caption} ${i + 1}`, removal), ...own];
   });
-  return [...rows, row(all.length > 0 ? "" : caption, button(`Add to ${caption}`, () => put([...all, start(items, context)]), {"aria-label": `Add to ${label}`}))];
+  const more = () => context.more[caption]?.(all) ?? [...all, start(items, context)];
+  return [...rows, row(all.length > 0 ? "" : caption, button(`Add to ${caption}`, () => put(more()), {"aria-label": `Add to ${label}`}))];
 }

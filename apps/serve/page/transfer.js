@@ -1,7 +1,8 @@
 // The transfer function of volume rendering: density by value over the field's histogram, with points and peaks to be moved.
-import {button, buttons, check, colorControls, element, hand, movable, number, row, setAttributes, shape} from "./controls.js";
+import {button, buttons, check, colorControls, element, hand, movable, number, placed, row, setAttributes, shape} from "./controls.js";
 import {bars} from "./color_scale.js";
 import {scale, short} from "./axis.js";
+import {middlePoint, withPoint} from "./point_rows.js";
 
 /** @typedef {Record<string, any>} Json */
 /** @typedef {import("./editor.js").Context} Context */
@@ -11,9 +12,6 @@ const width = 264, height = 120, place = "/volume_rendering";
 
 /** @param {Json} own the scene's volume_rendering @param {string} field @param {Context} context */
 export function transferEditor(own, field, context) {
-  if (own.transfer) {
-    return [element("p", {}, ["Colours and density are those of a transfer function that is given as a whole."])];
-  }
   const map = own.color_map ?? context.scene.color_map ?? {};
   const isOpacity = Boolean(own.opacity);
   const key = isOpacity ? "opacity" : "density";
@@ -99,8 +97,7 @@ export function transferEditor(own, field, context) {
     return node;
   });
   const insert = (/** @type {number[]} */ point) => {
-    const behind = points.findIndex((other) => other[0] > point[0]);
-    points.splice(behind < 0 ? points.length : behind, 0, point);
+    points.splice(0, points.length, ...withPoint(points, point));
     send(true);
   };
   drawing.addEventListener("dblclick", (event) => {
@@ -157,38 +154,25 @@ function roundMiddle([low, high]) {
   return Number((Math.round((low + high) / 2 / step) * step).toPrecision(12));
 }
 
-/**
- * In the middle of the widest gap.
- * @param {number[][]} points
- */
-function middlePoint(points) {
-  let widest = 0;
-  for (let i = 1; i + 1 < points.length; ++i) {
-    widest = points[i + 1][0] - points[i][0] > points[widest + 1][0] - points[widest][0] ? i : widest;
-  }
-  const [from, to] = [points[widest], points[Math.min(widest + 1, points.length - 1)]];
-  return from.map((number, i) => (number + to[i]) / 2);
-}
-
 /** @param {Json} peak @param {number} i @param {() => void} send @param {() => void} remove */
 function peakRows(peak, i, send, remove) {
-  const part = (/** @type {string} */ key) => number(`${key} of peak ${i + 1}`, peak[key], (value) => {
+  const part = (/** @type {string} */ key) => placed(`${place}/peaks/${i}/${key}`, number(`${key} of peak ${i + 1}`, peak[key], (value) => {
     if (value !== null) {
       peak[key] = value;
       send();
     }
-  });
+  }));
   return [
     row(`Peak ${i + 1}`, part("value"), button("Remove", remove, {"aria-label": `Remove peak ${i + 1}`})),
     row("Width", part("width"), element("span", {}, ["density"]), part("density")),
     ...(peak.color ? [row("Peak's colour", ...colorControls(`Colour of peak ${i + 1}`, peak.color, (rgb) => { peak.color = rgb; send(); }))] : []),
-    row("", check("own colour", Boolean(peak.color), (is) => {
+    placed(`${place}/peaks/${i}/color`, row("", check("own colour", Boolean(peak.color), (is) => {
       if (is) {
         peak.color = [0.9, 0.9, 0.9];
       } else {
         delete peak.color;
       }
       send();
-    }, `own colour of peak ${i + 1}`)),
+    }, `own colour of peak ${i + 1}`))),
   ];
 }

@@ -1,5 +1,7 @@
 #include "session.hpp"
+#include "memory_limit.hpp"
 
+#include <core/base/error.hpp>
 #include <core/base/memory.hpp>
 
 #include <algorithm>
@@ -119,6 +121,27 @@ void Session::run(const std::stop_token& stop) {
     }
 }
 
+Encoded Session::watched(const std::function<Encoded(const task& watch)>& work, const std::function<bool()>& must_stop) {
+    // At the second try, what is kept for later is gone.
+    for (const bool is_first : {true, false}) {
+        need_memory(*m_served, 0);
+        MemoryWatch memory(*m_served);
+        try {
+            return work({{}, [&] { return m_cancelled || must_stop() || memory.is_exceeded(); }});
+        } catch (const elvis::error& error) {
+            const bool is_cancelled = error.result() == ELVIS_ERROR_CANCELLED && (m_cancelled || !memory.is_exceeded());
+            if (is_cancelled || (error.result() != ELVIS_ERROR_CANCELLED && error.result() != ELVIS_ERROR_OUT_OF_MEMORY)) {
+                throw;
+            }
+            m_served->volume.free_memory();
+            if (!is_first) {
+                throw Error("this takes more memory than the " + limit_text(*m_served) + ": " + error.what());
+            }
+        }
+    }
+    return {};
+}
+
 void Session::do_task(std::unique_lock<std::mutex>& lock, std::deque<Task>& tasks) {
     Task task = std::move(tasks.front());
     tasks.pop_front();
@@ -128,7 +151,7 @@ void Session::do_task(std::unique_lock<std::mutex>& lock, std::deque<Task>& task
     Encoded result{Json::object(), {}};
     try {
         const Urgent urgent(*m_served, &tasks == &m_tasks);
-        result = task.job(task.scene, {{}, [this] { return m_cancelled.load(); }});
+        result = watched([&](const elvis::task& watch) { return task.job(task.scene, watch); }, [] { return false; });
         message["type"] = "answer";
         message.update(result.facts);
     } catch (const std::exception& error) {
@@ -151,7 +174,7 @@ void Session::draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step
     const Scene scene = m_model.scene();
     const std::uint64_t revision = m_model.revision();
     // Of what is drawn, not of what comes meanwhile.
-    const Json told = {{"revision", revision}, {"echo", m_echo}, {"overlay", overlay_json()}};
+    const Json told = {{"revision", revision}, {"echo", m_echo}, {"overlay", overlay_json()}, {"camera", scene["camera"]}};
     Line line = m_line;
     line.quality = step.stage == FrameStage::moving ? moving_quality : full_quality;
     line.shrink = step.stage == FrameStage::moving ? line.shrink : 1;
@@ -166,13 +189,17 @@ void Session::draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step
     try {
         const Urgent urgent(*m_served, !is_exact);
         const bool may_yield = is_exact && m_n_yields < most_yields;
-        const task watch{{}, [&] {
-                             if (may_yield && m_served->n_urgent > 0) {
-                                 has_yielded = true;
-                             }
-                             return m_cancelled || has_yielded;
-                         }};
-        drawn = is_exact ? draw_exactly(*m_served, scene, watch) : draw_for_screen(*m_served, scene, step, line, watch);
+        const auto yields = [&] {
+            if (may_yield && m_served->n_urgent > 0) {
+                has_yielded = true;
+            }
+            return has_yielded.load();
+        };
+        drawn = watched(
+            [&](const task& watch) {
+                return is_exact ? draw_exactly(*m_served, scene, watch) : draw_for_screen(*m_served, scene, step, line, watch);
+            },
+            yields);
     } catch (const cancelled&) {
         // Something else is wanted.
     } catch (const std::exception& what) {

@@ -87,6 +87,7 @@ private:
     Json place_camera(const Json& message);
     Json release(const Json& message);
     Json set(const Json& message);
+    Json check(const Json& message);
     Json merge(const Json& message);
     Json load(const Json& message);
     Json undo(const Json& message);
@@ -99,6 +100,7 @@ private:
     Json drag(const Json& message);
     Json pick(const Json& message);
     Json range(const Json& message);
+    Json transfer(const Json& message);
     Json line(const Json& message);
     Json histogram(const Json& message);
     Json palette(const Json& message);
@@ -109,14 +111,21 @@ private:
     /** Throws Error if there would be nothing to see. */
     void move_camera(const Camera& camera);
     void set_camera(const Camera& camera, bool is_moving);
-    /** A scene of the page, in full form and with a whole camera, if the library takes it; throws what it says otherwise. */
+    /**
+     * A scene of the page, in full form and with a whole camera, if the library takes it and it suits the volume; throws what
+     * they say otherwise.
+     */
     Scene judged(const Json& scene) const;
+    /** What did not suit the volume before may go on. */
+    void check_suits(const elvis::scene& wanted) const;
     /** As near as it sees all of the volume. */
     Camera fitted(const Camera& camera) const;
     void edit(const std::string& what, const Json& scene);
     void edited(bool is_moving);
     /** A picture may have that size: see message_values.hpp, memory_limit.hpp. */
     void check_size(const Scene& scene, const std::array<std::uint32_t, 2>& size) const;
+    /** For what the scene shows more than before. */
+    void need_memory_of_items(const Scene& scene) const;
     /** A step of its own. */
     void change_items(const std::string& what, Scene&& scene);
     /** `is_awaited`: before the next picture. */
@@ -144,6 +153,8 @@ private:
     /** The picture to draw now, if one is wanted and may be sent. */
     std::optional<FrameSchedule::Step> next_step(Clock::time_point now) const;
     bool has_work(Clock::time_point now) const;
+    /** Work that is stopped when something else is wanted, and where it takes too much memory. Without the lock. */
+    Encoded watched(const std::function<Encoded(const task& watch)>& work, const std::function<bool()>& must_stop);
     /** These open the lock while they work. */
     void do_task(std::unique_lock<std::mutex>& lock, std::deque<Task>& tasks);
     void draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step& step);

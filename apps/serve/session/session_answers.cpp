@@ -53,6 +53,18 @@ Session::Json Session::range(const Json& message) {
     return {};
 }
 
+Session::Json Session::transfer(const Json& message) {
+    post(message, "reading a transfer function",
+         [served = m_served, usual = field_of(message)](const Scene& scene, const task&) -> Encoded {
+             const elvis::scene shown = served->library_scene(scene);
+             const std::string field = view::part_of(scene, "volume_rendering").value("field", usual);
+             const elvis_range found = served->volume.range(shown.expression(field), view::time_step_of(scene));
+             const std::string text = shown.transfer({found.minimum, found.maximum}, served->facts.diagonal());
+             return {{{"transfer", Json::parse(text)}}, {}};
+         });
+    return {};
+}
+
 Session::Json Session::histogram(const Json& message) {
     post(
         message, "sampling the field",

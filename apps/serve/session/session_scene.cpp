@@ -46,11 +46,29 @@ Scene Session::judged(const Json& scene) const {
     if (time_step >= m_served->facts.times.size() && time_step > 0) {
         throw Error("the volume has " + std::to_string(m_served->facts.times.size()) + " time steps");
     }
+    check_suits(wanted);
     return full;
+}
+
+void Session::check_suits(const elvis::scene& wanted) const {
+    try {
+        m_served->volume.check_scene(wanted);
+    } catch (const elvis::error&) {
+        bool did_before = true;
+        try {
+            m_served->volume.check_scene(m_served->library_scene(m_model.scene()));
+        } catch (const elvis::error&) {
+            did_before = false;
+        }
+        if (did_before) {
+            throw;
+        }
+    }
 }
 
 void Session::edit(const std::string& what, const Json& scene) {
     Scene wanted = judged(scene);
+    need_memory_of_items(wanted);
     m_is_first_view = m_is_first_view && scene.value("camera", Json()) == m_model.scene()["camera"];
     m_taken.reset();
     m_model.edit(what, std::move(wanted));
@@ -64,6 +82,13 @@ void Session::check_size(const Scene& scene, const std::array<std::uint32_t, 2>&
     const auto n_pixels = [](const std::array<std::uint32_t, 2>& of) { return std::uint64_t{of[0]} * of[1]; };
     if (n_pixels(size) > n_pixels(view::size_of(m_model.scene()))) {
         need_memory(*m_served, picture_bytes(n_pixels(size)));
+    }
+}
+
+void Session::need_memory_of_items(const Scene& scene) const {
+    const std::size_t before = view::items_of(m_model.scene()).size(), after = view::items_of(scene).size();
+    if (after > before) {
+        need_memory(*m_served, item_bytes * (after - before));
     }
 }
 
@@ -89,6 +114,13 @@ Session::Json Session::set(const Json& message) {
     return Json::object();
 }
 
+Session::Json Session::check(const Json& message) {
+    Json scene = m_model.scene();
+    set_at(scene, message.at("pointer").get<std::string>(), message.value("value", Json()));
+    judged(scene);
+    return Json::object();
+}
+
 Session::Json Session::merge(const Json& message) {
     Json scene = m_model.scene();
     scene.merge_patch(message.at("patch"));
@@ -101,12 +133,13 @@ Session::Json Session::load(const Json& message) {
     if (scene.is_object() && !scene.contains("volume")) {
         scene["volume"] = m_model.scene()["volume"];
     }
-    const auto size = view::size_of(m_model.scene());
+    // Its size is the page's.
+    if (scene.is_object() && scene.value("image", Json::object()).is_object()) {
+        scene["image"]["size"] = m_model.scene()["image"]["size"];
+    }
     m_model.end_gesture();
     edit("load a scene", scene);
     m_model.end_gesture();
-    m_model.set_size(size);
-    edited(false);
     return Json::object();
 }
 
@@ -134,6 +167,7 @@ view::ItemId Session::item_of(const Json& message) const {
 }
 
 void Session::change_items(const std::string& what, Scene&& scene) {
+    need_memory_of_items(scene);
     m_taken.reset();
     m_model.end_gesture();
     m_model.edit(what, std::move(scene));

@@ -22,7 +22,7 @@ std::shared_ptr<Session> Sessions::find_or_make(const std::string& id) {
         m_entries.erase(longest);
     }
     make_room();
-    need_memory(*m_served, 0);
+    need_memory(*m_served, session_bytes);
     const std::string name = random_digits(16);
     auto session = std::make_shared<Session>(m_served, name);
     m_entries[name] = {session, nullptr, {}, Clock::now()};
@@ -74,11 +74,11 @@ void Sessions::make_room() {
         m_is_short = false;
         return;
     }
-    give_back_free_memory();
+    m_served->library.free_memory();
     for (auto longest = longest_alone(); longest != m_entries.end() && is_memory_exceeded(*m_served);
          longest = longest_alone()) {
         m_entries.erase(longest);
-        give_back_free_memory();
+        m_served->library.free_memory();
     }
     if (is_memory_exceeded(*m_served) && !std::exchange(m_is_short, true)) {
         for (const auto& [id, entry] : m_entries) {
