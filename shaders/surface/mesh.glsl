@@ -3,11 +3,17 @@
 // whatever triangle it belongs to; the signs of the three edge functions are exact for these numbers, and a ray through an edge
 // belongs to both sides. So no ray passes between triangles that share their corners.
 //
-// Rows: xyz: reference point minus the origin of corners and hierarchy.
+// Rows: xyz: reference point minus the origin of corners and hierarchy; w: 1 if lines are looked for in pixels, else 0.
 //
 // Buffers: core_triangles, nine numbers each; core_nodes.
 
+#include "arithmetic/precision.glsl"
+#include "picture/view.glsl"
 #include "surface/descent.glsl"
+
+// Cosine of the angle, and distance over the pixel's size, within which triangles are one sheet.
+#define CORE_SAME_SHEET elvis_real(0.97LF)
+#define CORE_SHEET_ROOM elvis_real(0.5LF)
 
 // Iterations of one pixel: see cut_surface/locate.glsl.
 #define CORE_WORK_LIMIT 3000u
@@ -87,6 +93,65 @@ void core_consider_triangle(uint triangle, bool is_active, core_surface_ray ray,
     core_take_hit(is_better, t, error, normal, elvis_real(0), best);
 }
 
+// Where the ray's pixel ends at the parameter t, in each sheared coordinate, and in the world.
+struct core_pixel_size {
+    elvis_real across, down, world;
+};
+
+core_pixel_size core_pixel_size_at(core_shear shear, elvis_real t) {
+    const elvis_vec3 next = core_base_column.xyz + t * core_direction_column.xyz;
+    const elvis_vec3 below = core_base_row.xyz + t * core_direction_row.xyz;
+    const elvis_vec3 right = abs(core_sheared(shear, next)), under = abs(core_sheared(shear, below));
+    const elvis_real half_one = elvis_real(0.5LF);
+    return core_pixel_size(half_one * (right.x + under.x), half_one * (right.y + under.y), half_one * (length(next) + length(below)));
+}
+
+// Whether the triangle reaches into the pixel in front of what the ray meets, or not far behind, and is another sheet.
+bool core_is_other_sheet(uint triangle, core_surface_ray ray, elvis_vec3 origin, core_shear shear, core_hit hit) {
+    const elvis_vec4 row0 = elvis_fetch4_core_triangles(triangle, 0u), row1 = elvis_fetch4_core_triangles(triangle, 1u);
+    const elvis_vec4 row2 = elvis_fetch4_core_triangles(triangle, 2u);
+    const elvis_vec3 corner_a = row0.xyz - origin, corner_b = elvis_vec3(row0.w, row1.xy) - origin;
+    const elvis_vec3 corner_c = elvis_vec3(row1.zw, row2.x) - origin;
+    const elvis_vec3 a = core_sheared(shear, corner_a), b = core_sheared(shear, corner_b), c = core_sheared(shear, corner_c);
+    const elvis_vec3 hit_normal = elvis_vec3(hit.normal_x, hit.normal_y, hit.normal_z);
+    const elvis_vec3 normal = cross(corner_b - corner_a, corner_c - corner_a);
+    const elvis_vec3 t = shear.scale * elvis_vec3(a.z, b.z, c.z);
+    const elvis_real stretch = length(ray.direction), hit_size = length(hit_normal), size = length(normal);
+    const elvis_real cosine = max(abs(dot(hit_normal, ray.direction)) / (hit_size * stretch), elvis_real(1e-3LF));
+    // What the pixel shows of the sheet that the ray meets lies before this.
+    const elvis_real last = hit.t + elvis_real(2) * core_pixel_size_at(shear, hit.t).world / (cosine * stretch);
+    const core_pixel_size pixel = core_pixel_size_at(shear, min(max(max(t.x, t.y), t.z), last));
+
+    const elvis_vec3 low = min(min(a, b), c), high = max(max(a, b), c), ab = abs(b - a), bc = abs(c - b), ca = abs(a - c);
+    const elvis_real u = c.x * b.y - c.y * b.x, v = a.x * c.y - a.y * c.x, w = b.x * a.y - b.y * a.x;
+    const elvis_real side = u + v + w < elvis_real(0) ? elvis_real(-1) : elvis_real(1);
+    const bool is_reached = low.x <= pixel.across && high.x >= -pixel.across && low.y <= pixel.down && high.y >= -pixel.down &&
+                            side * u >= -(pixel.across * bc.y + pixel.down * bc.x) &&
+                            side * v >= -(pixel.across * ca.y + pixel.down * ca.x) &&
+                            side * w >= -(pixel.across * ab.y + pixel.down * ab.x);
+    const bool is_alike = abs(dot(normal, hit_normal)) >= CORE_SAME_SHEET * size * hit_size &&
+                          abs(dot(normal, hit.t * ray.direction - corner_a)) <= CORE_SHEET_ROOM * pixel.world * size;
+    return is_reached && min(min(t.x, t.y), t.z) <= last && !is_alike;
+}
+
+// Whether the pixel may show another sheet than that which its ray meets, which the pixels around it need not show: a narrow fold.
+bool core_may_show_more(core_surface_ray ray, elvis_vec3 origin, core_shear shear, core_box_ray box_ray, core_hit hit) {
+    const float room = float(core_pixel_size_at(shear, hit.t).world);
+    box_ray.tolerance += 2.0 * room;
+    core_stack[0] = 0u;
+    uint stack_size = hit.is_hit ? 1u : 0u, work = 0u;
+    bool shows_more = false;
+    while (stack_size > 0u && !shows_more && work < CORE_WORK_LIMIT) {
+        work += 1u;
+        const uint triangle = core_next_item(box_ray, 3e38, stack_size);
+        shows_more = triangle != CORE_NO_NODE && core_is_other_sheet(triangle, ray, origin, shear, hit);
+        if (stack_size == 0u || shows_more) {
+            break;
+        }
+    }
+    return shows_more || stack_size > 0u;
+}
+
 core_hit core_next_hit(core_surface_ray ray) {
     core_hit best = core_no_hit();
     const elvis_vec3 origin = ray.origin + CORE_SHAPE(0).xyz;
@@ -113,5 +178,8 @@ core_hit core_next_hit(core_surface_ray ray) {
     }
     best.is_undecided = best.is_undecided || core_is_undecided(votes, best);
     best.is_cut_short = stack_size > 0u;
+    if (CORE_SHAPE(0).w > elvis_real(0) && core_may_show_more(ray, origin, shear, box_ray, best)) {
+        best.bending = CORE_FAR;
+    }
     return best;
 }

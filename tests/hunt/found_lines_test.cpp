@@ -103,4 +103,26 @@ TEST_CASE("Seen edge on, a sphere departs farther from its tangent plane along r
     CHECK(tally.far + tally.near == 0);
 }
 
+TEST_CASE("A fold of a mesh that lies between the pixels' centres has lines, too, or its pixels are not sure") {
+    const TemporaryFile file("cube.h5");
+    write_hexahedra(file.path(), {[](const oracle::Vector& xi) { return xi; }});
+    const auto mesh = std::make_shared<TriangleMesh>();
+    // A square that faces the viewer; on it stands a triangle, of which a third of a pixel's width is seen.
+    mesh->points = {{-0.9, -0.9, 0},     {0.9, -0.9, 0},     {0.9, 0.9, 0},     {-0.9, 0.9, 0},
+                    {3.1 / 30, -0.8, 0}, {3.1 / 30, 0.8, 0}, {3.4 / 30, 0, 0.5}};
+    mesh->triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}};
+    FrameRequest request = request_from({0, 0, 5}, {0, 0, 0});
+    request.camera.orthographic = true;
+    request.camera.height = 2;
+    Surface surface = colored_surface();
+    surface.geometry = CutShape(MeshSurface{mesh});
+    surface.contours.emplace();
+    surface.contours->values = {0.05, 0.15, 0.2};
+    request.surfaces = {surface};
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const Tally tally = judge_picture(file.path(), request, precision);
+    CHECK(tally.lines > 100);
+    CHECK(tally.far + tally.near == 0);
+}
+
 } // namespace elvis::hunt

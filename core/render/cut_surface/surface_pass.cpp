@@ -166,7 +166,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     write_view(m_frame, m_precision, view);
     const bool shows_all = shows_outside || solver.has_own_values();
     solver.begin(shape, view, shows_all ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error,
-                 shows_all && is_endless(shape));
+                 shows_all && is_endless(shape), target.places != nullptr);
     m_counts.fill(0);
     const OpenPoints::Surface open{
         surface, component, target, m_frame, m_counts, &*m_hits, static_cast<float>(picture.most_error)};

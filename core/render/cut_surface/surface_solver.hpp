@@ -35,10 +35,10 @@ public:
     /**
      * Prepares a picture of a shape with the solver's key. `bounds`: min x y z, max x y z; crossings are looked for in this
      * box. `most_error`: error of a crossing along the ray, in world length, from which on its pixel is undecided.
-     * `ends_in_box`: the box ends what is seen of the shape.
+     * `ends_in_box`: the box ends what is seen of the shape. `with_lines`: lines are looked for in whole pixels.
      */
     void begin(const CutShape& shape, const CutPlaneGeometry& view, const std::array<double, 6>& bounds, double most_error,
-               bool ends_in_box = false) const;
+               bool ends_in_box = false, bool with_lines = false) const;
 
     /** What begin() wrote. */
     const Buffer& rows() const { return *m_rows; }
