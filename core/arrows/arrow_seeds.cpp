@@ -1,32 +1,24 @@
 #include <core/arrows/arrow_seeds.hpp>
 
-#include <core/arrows/sparse_points.hpp>
-#include <core/base/error.hpp>
+#include <core/arrows/even_points.hpp>
+#include <core/arrows/shape_candidates.hpp>
 #include <core/extract/extraction.hpp>
 #include <core/probe/cpu_evaluator.hpp>
-#include <core/volume/boundary/element_faces.hpp>
 
 #include <elvis/native/space.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <map>
 
 namespace elvis {
 
 namespace {
 
-/** More are too close to be told apart in any picture. */
-constexpr double most_points = 1e6;
 /** Candidates are so close to each other, as a share of the spacing. */
-constexpr double candidate_step = 0.3;
-
-void need_few(double n_points) {
-    if (!(n_points <= most_points)) {
-        throw Error("arrows", "the spacing is too small: there would be about " + std::to_string(n_points) +
-                                  " places to look at, and 1000000 are the most");
-    }
-}
+constexpr double candidate_step = 0.2;
 
 /** Of a lattice through 0: the multiples of the spacing in [-reach, reach]. */
 std::vector<double> steps_within(double reach, double spacing) {
@@ -36,17 +28,6 @@ std::vector<double> steps_within(double reach, double spacing) {
         steps.push_back(static_cast<double>(i) * spacing);
     }
     return steps;
-}
-
-std::array<Vector3, 2> across(const Vector3& normal) {
-    std::size_t least = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis) {
-        least = std::abs(normal[axis]) < std::abs(normal[least]) ? axis : least;
-    }
-    Vector3 other{};
-    other[least] = 1;
-    const Vector3 first = unit(cross(normal, other));
-    return {first, cross(normal, first)};
 }
 
 elvis_shape shape_of(const RuntimeVolume& volume, std::uint64_t element) {
@@ -59,40 +40,22 @@ Vector3 position_of(const RuntimeVolume& volume, const ReferencePoint& place) {
     return position;
 }
 
-/** Of n + 1 points along each side: weights of three or four corners. */
-std::vector<std::vector<double>> lattice_of_face(std::size_t n_corners, int n) {
-    std::vector<std::vector<double>> weights;
-    for (int j = 0; j <= n; ++j) {
-        for (int i = 0; i <= (n_corners == 3 ? n - j : n); ++i) {
-            const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
-            weights.push_back(n_corners == 3 ? std::vector{1 - u - v, u, v}
-                                             : std::vector{(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v});
-        }
-    }
-    return weights;
-}
-
-/** `corners` in their order round the face. */
-Vector3 weighted(const std::vector<Vector3>& corners, const std::vector<double>& weights) {
-    Vector3 sum{};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        sum = plus(sum, scaled(corners[i], weights[i]));
-    }
-    return sum;
-}
-
 } // namespace
 
 ArrowSeeds::ArrowSeeds(const RuntimeVolume& volume, double spacing, const TaskControl& control)
     : m_volume(volume), m_spacing(spacing), m_control(control), m_finder(volume) {}
 
+std::optional<ArrowSeed> ArrowSeeds::seed_at(const Vector3& position) const {
+    m_control.check();
+    const std::vector<ReferencePoint> holders = m_finder.holders(m_volume, position);
+    return holders.empty() ? std::nullopt : std::optional(ArrowSeed{holders.front(), position});
+}
+
 std::vector<ArrowSeed> ArrowSeeds::found(const std::vector<Vector3>& positions) const {
     std::vector<ArrowSeed> seeds;
     for (const Vector3& position : positions) {
-        m_control.check();
-        const std::vector<ReferencePoint> holders = m_finder.holders(m_volume, position);
-        if (!holders.empty()) {
-            seeds.push_back({holders.front(), position});
+        if (const std::optional<ArrowSeed> seed = seed_at(position)) {
+            seeds.push_back(*seed);
         }
     }
     return seeds;
@@ -137,11 +100,29 @@ std::vector<ArrowSeed> ArrowSeeds::on_plane(const CutPlane& plane, const std::ar
     return found(positions);
 }
 
-std::vector<ArrowSeed> ArrowSeeds::on_boundary(const BoundaryFaces& boundary) const {
-    SparsePoints kept(m_spacing);
+std::vector<ArrowSeed> ArrowSeeds::chosen(const std::vector<Vector3>& candidates,
+                                          const std::function<std::optional<ArrowSeed>(std::size_t candidate)>& make) const {
+    std::map<std::size_t, ArrowSeed> made;
+    const auto place = [&](std::size_t candidate) -> std::optional<Vector3> {
+        m_control.check();
+        const std::optional<ArrowSeed> seed = make(candidate);
+        if (!seed) {
+            return std::nullopt;
+        }
+        made.emplace(candidate, *seed);
+        return seed->position;
+    };
     std::vector<ArrowSeed> seeds;
-    double n_looked_at = 0;
-    for (const ElementFace& face : boundary_faces(m_volume, boundary.groups, &m_control)) {
+    for (const std::size_t candidate : choose_evenly(candidates, m_spacing, place)) {
+        seeds.push_back(made.at(candidate));
+    }
+    return seeds;
+}
+
+std::vector<ArrowSeed> ArrowSeeds::on_faces(const std::vector<ElementFace>& faces) const {
+    Candidates candidates(candidate_step * m_spacing);
+    std::vector<ArrowSeed> seeds;
+    for (const ElementFace& face : faces) {
         m_control.check();
         const auto shape = static_cast<native::Shape>(shape_of(m_volume, face.element));
         std::vector<Vector3> corners;
@@ -155,18 +136,25 @@ std::vector<ArrowSeed> ArrowSeeds::on_boundary(const BoundaryFaces& boundary) co
             longest = std::max(longest, length(minus(position_of(m_volume, {face.element, corner}), first)));
         }
         // Curved faces are longer than their chords.
-        const double n = std::ceil(1.5 * longest / (candidate_step * m_spacing));
-        n_looked_at += n * n;
-        need_few(n_looked_at);
-        for (const std::vector<double>& weights : lattice_of_face(corners.size(), std::max(1, static_cast<int>(n)))) {
+        const double n = std::max(1.0, std::ceil(1.5 * longest / (candidate_step * m_spacing)));
+        need_few(n * n);
+        for (const std::vector<double>& weights : lattice_of_face(corners.size(), static_cast<int>(n))) {
             const ReferencePoint place{face.element, weighted(corners, weights)};
             const Vector3 position = position_of(m_volume, place);
-            if (kept.add(position)) {
+            if (candidates.add(position)) {
                 seeds.push_back({place, position});
             }
         }
     }
-    return seeds;
+    return chosen(candidates.points(), [&](std::size_t candidate) { return seeds[candidate]; });
+}
+
+std::optional<std::vector<ArrowSeed>> ArrowSeeds::on_shape(const CutShape& shape) const {
+    Candidates candidates(candidate_step * m_spacing);
+    if (!add_shape(shape, candidates)) {
+        return std::nullopt;
+    }
+    return chosen(candidates.points(), [&](std::size_t candidate) { return seed_at(candidates.points()[candidate]); });
 }
 
 /** Newton's method along the gradient, from a point near the surface. */
@@ -194,8 +182,8 @@ std::optional<ArrowSeed> ArrowSeeds::on_level(PointEvaluator& evaluator, const s
     return std::nullopt;
 }
 
-std::vector<ArrowSeed> ArrowSeeds::on_isosurfaces(const std::shared_ptr<const Expression>& level,
-                                                  const std::vector<double>& values, std::uint32_t time_step) const {
+std::vector<ArrowSeed> ArrowSeeds::on_levels(const std::shared_ptr<const Expression>& level, const std::vector<double>& values,
+                                             std::uint32_t time_step) const {
     CpuEvaluator evaluator(m_volume);
     std::vector<ArrowSeed> seeds;
     for (const double value : values) {
@@ -205,25 +193,15 @@ std::vector<ArrowSeed> ArrowSeeds::on_isosurfaces(const std::shared_ptr<const Ex
         request.time_step = time_step;
         request.tolerance = std::clamp(0.1 * m_spacing / m_finder.diagonal(), 1e-4, 1e-2);
         const SurfaceMesh mesh = extract(m_volume, request, m_control);
-        SparsePoints kept(m_spacing);
+        Candidates candidates(candidate_step * m_spacing);
         for (const auto& triangle : mesh.triangles) {
-            m_control.check();
-            const std::vector<Vector3> corners = {mesh.positions[triangle[0]], mesh.positions[triangle[1]],
-                                                  mesh.positions[triangle[2]]};
-            const double longest = std::max({length(minus(corners[1], corners[0])), length(minus(corners[2], corners[1])),
-                                             length(minus(corners[0], corners[2]))});
-            const int n = std::max(1, static_cast<int>(std::ceil(longest / (candidate_step * m_spacing))));
-            for (const std::vector<double>& weights : lattice_of_face(3, n)) {
-                const Vector3 candidate = weighted(corners, weights);
-                if (!kept.has_room(candidate)) {
-                    continue;
-                }
-                const std::optional<ArrowSeed> seed = on_level(evaluator, level, value, time_step, candidate);
-                if (seed && kept.add(seed->position)) {
-                    seeds.push_back(*seed);
-                }
-            }
+            candidates.add_triangle({mesh.positions[triangle[0]], mesh.positions[triangle[1]], mesh.positions[triangle[2]]});
         }
+        std::ranges::copy(chosen(candidates.points(),
+                                 [&](std::size_t candidate) {
+                                     return on_level(evaluator, level, value, time_step, candidates.points()[candidate]);
+                                 }),
+                          std::back_inserter(seeds));
     }
     return seeds;
 }

@@ -9,8 +9,11 @@
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/probe/element_finder.hpp>
 #include <core/render/surface.hpp>
+#include <core/volume/boundary/element_faces.hpp>
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -34,17 +37,24 @@ public:
     /** Points of a square lattice about the bounds' middle as seen along the plane's normal. */
     std::vector<ArrowSeed> on_plane(const CutPlane& plane, const std::array<double, 6>& bounds) const;
     /**
-     * Points of the faces of which no two are nearer to each other than the spacing, and to one of which every point is nearer
-     * than about 1.3 of it.
+     * Points of faces of which no two are nearer to each other than the spacing, and to one of which every point is nearer than
+     * about 1.2 of it (even_points.hpp).
      */
-    std::vector<ArrowSeed> on_boundary(const BoundaryFaces& boundary) const;
-    /** Likewise, where the level takes one of the values. */
-    std::vector<ArrowSeed> on_isosurfaces(const std::shared_ptr<const Expression>& level, const std::vector<double>& values,
-                                          std::uint32_t time_step) const;
+    std::vector<ArrowSeed> on_faces(const std::vector<ElementFace>& faces) const;
+    /** Likewise, of a shape where it lies in the volume; nothing for shapes that add_shape() does not know. */
+    std::optional<std::vector<ArrowSeed>> on_shape(const CutShape& shape) const;
+    /** Likewise, where the level takes one of the values; those of each value by themselves. */
+    std::vector<ArrowSeed> on_levels(const std::shared_ptr<const Expression>& level, const std::vector<double>& values,
+                                     std::uint32_t time_step) const;
 
 private:
     /** Those in the volume. */
     std::vector<ArrowSeed> found(const std::vector<Vector3>& positions) const;
+    /** Those of evenly spaced candidates; `make` of a candidate that may be chosen. */
+    std::vector<ArrowSeed> chosen(const std::vector<Vector3>& candidates,
+                                  const std::function<std::optional<ArrowSeed>(std::size_t candidate)>& make) const;
+    /** Where elements hold a position. */
+    std::optional<ArrowSeed> seed_at(const Vector3& position) const;
     std::optional<ArrowSeed> on_level(PointEvaluator& evaluator, const std::shared_ptr<const Expression>& level, double value,
                                       std::uint32_t time_step, Vector3 position) const;
 

@@ -1,6 +1,7 @@
 #include <core/arrows/scene_arrows.hpp>
 
 #include <core/arrows/arrow_seeds.hpp>
+#include <core/arrows/shape_candidates.hpp>
 #include <core/base/bounds.hpp>
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
@@ -13,6 +14,8 @@
 #include <core/scene/threshold.hpp>
 #include <core/scene/write/write_parts.hpp>
 #include <core/streamline/flow.hpp>
+#include <core/volume/boundary/element_faces.hpp>
+#include <core/volume/element/element_selection.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,9 +44,11 @@ const SceneSurface* surface_under(const SceneArrows& arrows, const Scene& scene)
 
 /** All that glyphs rest on. */
 std::string key_of(const SceneSurface& own, const SceneSurface* under, const Scene& scene) {
+    // Files are named as seen from the working directory.
+    const std::string file = "scene";
     std::string key = std::to_string(scene.time_step) + '\n' + scene.field.value_or("") + '\n' + scene.threshold.value_or("") +
-                      '\n' + surface_json(own, "").dump();
-    return under == nullptr ? key : key + '\n' + surface_json(*under, "").dump();
+                      '\n' + surface_json(own, file).dump();
+    return under == nullptr ? key : key + '\n' + surface_json(*under, file).dump();
 }
 
 /** An expression for the field of that text, whose name may be no word of the language. */
@@ -52,6 +57,15 @@ std::shared_ptr<const Expression> scalar_of(const std::string& text, const Scene
     const bool is_name = std::ranges::any_of(fields, [&](const FieldInfo& info) { return info.name == text; });
     return std::make_shared<const Expression>(is_name ? "'" + text + "'" : with_distances(text, scene.surfaces), fields,
                                               volume.dimension());
+}
+
+/** Throws where the text of an implicit surface, in which x is the coordinate, would mean a field. */
+const std::string& with_coordinates(const std::string& level, const CutShape& shape, const RuntimeVolume& volume) {
+    const auto is_coordinate = [](const FieldInfo& info) { return info.name == "x" || info.name == "y" || info.name == "z"; };
+    if (std::holds_alternative<ImplicitSurface>(shape) && std::ranges::any_of(volume.fields(), is_coordinate)) {
+        throw Error("arrows", "cannot stand on an implicit surface of a volume with a field that is named as a coordinate");
+    }
+    return level;
 }
 
 class ArrowMaker {
@@ -92,22 +106,34 @@ private:
         if (under == nullptr) {
             return seeds.in_volume(m_bounds);
         }
+        const auto on_level = [&](const std::string& level, const std::vector<double>& values) {
+            return seeds.on_levels(scalar_of(level, m_scene, m_volume), values, m_scene.time_step);
+        };
         const auto refuse = [&]() -> std::vector<ArrowSeed> {
             throw Error("arrows",
-                        "cannot stand on '" + under->name + "': planes, boundaries and isosurfaces can be under them");
+                        "cannot stand on '" + under->name +
+                            "': wireframes, Bezier patches, streamlines, pathlines and other arrows can not be under them");
         };
-        return std::visit(Overloaded{[&](const CutPlane& plane) { return seeds.on_plane(plane, m_bounds); },
-                                     [&](const BoundaryFaces& boundary) { return seeds.on_boundary(boundary); },
-                                     [&](const Isosurfaces& isosurfaces) {
-                                         const std::string first = m_volume.fields().empty() ? "" : m_volume.fields()[0].name;
-                                         const std::string level = under->field.value_or(m_scene.field.value_or(first));
-                                         return seeds.on_isosurfaces(scalar_of(level, m_scene, m_volume), isosurfaces.values,
-                                                                     m_scene.time_step);
-                                     },
-                                     [&](const FlatElements&) { return refuse(); },
-                                     [&](const ElementFaces&) { return refuse(); }, [&](const WireFrame&) { return refuse(); },
-                                     [&](const CutShape&) { return refuse(); }},
-                          under->geometry);
+        return std::visit(
+            Overloaded{[&](const CutPlane& plane) { return seeds.on_plane(plane, m_bounds); },
+                       [&](const BoundaryFaces& boundary) {
+                           return seeds.on_faces(boundary_faces(m_volume, boundary.groups, &m_control));
+                       },
+                       [&](const ElementFaces&) {
+                           const auto chosen = std::get<ElementFaces>(complete_geometry(*under, m_scene, m_volume));
+                           return seeds.on_faces(faces_of_elements(m_volume, chosen.selection, &m_control));
+                       },
+                       [&](const Isosurfaces& isosurfaces) {
+                           const std::string first = m_volume.fields().empty() ? "" : m_volume.fields()[0].name;
+                           return on_level(under->field.value_or(m_scene.field.value_or(first)), isosurfaces.values);
+                       },
+                       [&](const CutShape& shape) {
+                           const auto found = seeds.on_shape(shape);
+                           const std::optional<std::string> level = found ? std::nullopt : level_of(shape);
+                           return found ? *found : level ? on_level(with_coordinates(*level, shape, m_volume), {0}) : refuse();
+                       },
+                       [&](const FlatElements&) { return refuse(); }, [&](const WireFrame&) { return refuse(); }},
+            under->geometry);
     }
 
     /** Those that are neither clipped with the surface nor out of the scene's threshold. */

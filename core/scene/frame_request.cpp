@@ -316,6 +316,14 @@ std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume
     return drawn;
 }
 
+SurfaceGeometry complete_geometry(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume) {
+    Surface surface;
+    surface.geometry = own.geometry;
+    surface.field = choose_field(scene, volume, own.field ? own.field : scene.field, surface.field_label);
+    std::visit(GeometryCompletion{scene, own, volume, surface}, surface.geometry);
+    return surface.geometry;
+}
+
 FrameRequest make_frame_request(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges) {
     if (scene.time_step >= volume.times().size()) {
         throw Error(scene.volume, "has " + counted(volume.times().size(), "time step") + ", counted from 0; there is no step " +

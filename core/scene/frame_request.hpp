@@ -21,6 +21,9 @@ FieldChoice choose_field(const RuntimeVolume& volume, const std::optional<std::s
  */
 std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume& volume, PictureRanges& ranges);
 
+/** The surface's geometry, with what it takes from its field and the volume. */
+SurfaceGeometry complete_geometry(const SceneSurface& own, const Scene& scene, const RuntimeVolume& volume);
+
 /**
  * The frame with everything decided. Without surfaces and volume rendering, the scene shows what default_surfaces.hpp says.
  * Throws Error where the scene does not suit the volume.

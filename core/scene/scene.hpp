@@ -107,7 +107,7 @@ struct SceneStreamlines {
 struct SceneArrows {
     /** A vector field or expression. */
     std::string vectors{};
-    /** The name of the scene's plane, boundary or isosurface on which they stand; in the volume if empty. */
+    /** The name of the scene's surface on which they stand; in the volume if empty. */
     std::string on{};
     /** Between them; by default a part of the diagonal of the bounds. */
     std::optional<double> spacing{};

@@ -133,10 +133,9 @@ bool edit_arrows(Ui& ui, Json& arrows) {
     const double diagonal = ui.model().volume()->diagonal();
     bool is_changed = offered_text(ui, "arrows/vectors", "Vectors", arrows, "vectors", flows_of(*ui.model().volume()),
                                    "The vector field or expression that the arrows show");
-    is_changed =
-        text(ui, "arrows/on", "On", arrows, "on",
-             "Name of the plane, boundary or isosurface on which they stand; in the volume if left empty", "the volume") ||
-        is_changed;
+    is_changed = text(ui, "arrows/on", "On", arrows, "on",
+                      "Name of the surface on which they stand; in the volume if left empty", "the volume") ||
+                 is_changed;
     is_changed = edit_optional(ui, "arrows/spacing", "Spacing", arrows, "spacing", 0.05 * diagonal, diagonal / 20,
                                "Distance between arrows; else a twentieth of the volume's diagonal") ||
                  is_changed;
