@@ -132,8 +132,8 @@ std::vector<std::int64_t> elements_seen(std::size_t n_pixels, const PartPicture&
 class LineDoubts {
 public:
     LineDoubts(const FrameRequest& request, Frame& frame)
-        : m_request(request), m_width(width_of_lines(request)), m_reach(1 + static_cast<int>(std::ceil(0.5 * m_width - 0.5))),
-          m_flags(open_lines(request)), m_frame(frame) {}
+        : m_request(request), m_width(width_of_lines(request)), m_reach(line_reach(m_width)), m_flags(open_lines(request)),
+          m_frame(frame) {}
 
     void flag(std::span<const PartPicture> pictures, const std::vector<Shown>& shown) {
         for (const PartPicture& picture : pictures) {

@@ -21,9 +21,9 @@ namespace {
 std::uint32_t margin_of(const FrameRequest& request) {
     double reach = 0;
     for (const Surface& surface : request.surfaces) {
-        // Half of a line's width, and of pixels that are met by halves their neighbours.
-        reach = surface.contours ? std::max(reach, surface.contours->style.width + 2) : reach;
-        reach = surface.mesh_lines ? std::max(reach, surface.mesh_lines->style.width + 2) : reach;
+        // And of pixels that are met by halves their neighbours.
+        reach = surface.contours ? std::max(reach, line_reach(surface.contours->style.width) + 1.0) : reach;
+        reach = surface.mesh_lines ? std::max(reach, line_reach(surface.mesh_lines->style.width) + 1.0) : reach;
         // Curves look at the pixels beside them, and at what is beside those.
         reach = surface.lic ? std::max(reach, surface.lic->length + 3) : reach;
     }

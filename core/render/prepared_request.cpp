@@ -20,7 +20,20 @@ void check_values(const char* of, const std::vector<double>& values) {
     }
 }
 
+/** Each pixel looks at all pixels so near, in loops that drivers end after 65535 iterations. */
+constexpr double widest_line = 176;
+
+void check_width(double width) {
+    if (width > widest_line) {
+        throw Error("lines", "a width of " + std::to_string(std::lround(width)) +
+                                 " pixels, with its image's samples, is more than " + std::to_string(std::lround(widest_line)) +
+                                 ", which is the most that is drawn");
+    }
+}
+
 void check_surface(const Surface& surface, const RuntimeVolume& volume) {
+    check_width(std::max(surface.contours ? surface.contours->style.width : 1,
+                         surface.mesh_lines ? surface.mesh_lines->style.width : 1));
     const SurfaceTraits traits = traits_of(surface.geometry);
     if (traits.isosurfaces != nullptr) {
         check_values("isosurface", traits.isosurfaces->values);

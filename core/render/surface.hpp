@@ -156,13 +156,19 @@ struct Condition {
 
 /** How lines on a surface are drawn. */
 struct LineStyle {
-    /** In pixels, at least 1: the pixels within half of it of one that meets the line. */
+    /** In pixels, at least 1: the pixels that meet the line, and those with their centre within half of it. */
     double width = 1;
     /** The colour map's at the isovalue where there is none. */
     std::optional<std::array<double, 3>> color;
     /** Of pixels for which it stays open whether they meet a line; if absent they are drawn as if they did. */
     std::optional<std::array<double, 3>> undecided_color;
 };
+
+/**
+ * From which neighbours on, in rows and columns, nothing matters to the lines that a pixel shows: those where wide ones may
+ * pass, and what these look at (shaders/picture/line_stretches.comp).
+ */
+inline int line_reach(double width) { return width > 1 ? static_cast<int>(0.5 * width + 0.7072) + 2 : 1; }
 
 /** Lines on which the field takes given values. */
 struct Contours {

@@ -45,8 +45,7 @@ std::uint32_t owner_of(std::span<const Frame> frames, std::size_t pixel) {
 class Joining {
 public:
     Joining(std::span<const Frame> frames, double tolerance, double line_width)
-        : m_frames(frames), m_tolerance(tolerance), m_reach(1 + static_cast<int>(std::ceil(0.5 * line_width - 0.5))),
-          m_owners(frames.front().flags.size()) {
+        : m_frames(frames), m_tolerance(tolerance), m_reach(line_reach(line_width)), m_owners(frames.front().flags.size()) {
         for (std::size_t pixel = 0; pixel < m_owners.size(); ++pixel) {
             m_owners[pixel] = first_of_equals(pixel, owner_of(frames, pixel));
         }

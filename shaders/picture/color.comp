@@ -17,6 +17,10 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "picture/lighting.glsl"
 layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
 #endif
+#if CORE_HAS_WIDE_LINES
+#include "picture/line_stretch.glsl"
+layout(set = 0, binding = 6 + 2 * CORE_IS_LIT + CORE_IS_SHADED, std430) readonly buffer core_stretches_block { uint core_stretches[]; };
+#endif
 #if CORE_IS_SHADED
 // Factors of colours, by line integral convolution (picture/lic.comp).
 layout(set = 0, binding = 6 + 2 * CORE_IS_LIT, std430) readonly buffer core_shades_block { elvis_real core_shades[]; };
@@ -45,7 +49,7 @@ layout(push_constant) uniform core_parameters {
     // CORE_STYLE_...
     uint core_contour_style;
     uint core_mesh_style;
-    // In pixels, from one that meets the line to the farthest that is drawn.
+    // Half the widths of lines, in pixels.
     float core_contour_reach;
     float core_mesh_reach;
     // The surface has one normal, that of the rays' plane.
@@ -121,40 +125,53 @@ elvis_vec4 core_nearest_isovalue(elvis_real value) {
     return nearest;
 }
 
-// Flags of the pixel and of those within reach of it.
-uint core_flags_near(uint pixel, float reach) {
-    uint flags = core_marks[pixel].flags;
-    const int width = int(core_width), height = int(core_n_pixels / core_width);
-    const int column = int(pixel) % width, row = int(pixel) / width;
-    const int most = int(reach);
-    for (int down = -most; down <= most; ++down) {
-        for (int across = -most; across <= most; ++across) {
-            const int there_row = row + down, there_column = column + across;
-            const bool is_near = float(down * down + across * across) <= reach * reach + 0.25;
-            const bool is_inside = there_row >= 0 && there_row < height && there_column >= 0 && there_column < width;
-            flags |= is_near && is_inside ? core_marks[there_row * width + there_column].flags : 0u;
-        }
-    }
-    return flags;
-}
-
 #if CORE_HAS_LINES
 struct core_lines {
     bool is_contour, is_contour_undecided, is_mesh_line, is_mesh_undecided;
 };
 
+// Whether there is a line, or it is open whether there is one: in the pixel, or so near to its middle.
+struct core_line_here {
+    bool is_met, is_undecided;
+};
+
+core_line_here core_line_near(uint pixel, uint kind, float reach, uint met, uint open) {
+    const uint flags = core_marks[pixel].flags;
+    core_line_here line = core_line_here((flags & met) != 0u, (flags & open) != 0u);
+#if CORE_HAS_WIDE_LINES
+    const ivec2 size = ivec2(core_width, core_n_pixels / core_width), place = ivec2(pixel % core_width, pixel / core_width);
+    // What meets a pixel is no farther from its middle than its corners are.
+    const int most = reach > 0.5 ? int(reach + 0.7072) : 0;
+    const ivec2 first = max(place - most, ivec2(0)), last = min(place + most, size - 1);
+    for (int row = first.y; row <= last.y && most > 0; ++row) {
+        for (int column = first.x; column <= last.x; ++column) {
+            const uint word = core_stretches[2u * (uint(row) * core_width + uint(column)) + kind];
+            if (word != 0u) {
+                const vec2 to_here = vec2(place - ivec2(column, row));
+                const float square = core_square_to_stretch(to_here, core_stretch_begin(word), core_stretch_end(word));
+                const bool is_near = square <= reach * reach, is_decided = (word & CORE_STRETCH_DECIDED) != 0u;
+                line.is_met = line.is_met || (is_near && is_decided);
+                line.is_undecided = line.is_undecided || (is_near && !is_decided);
+            }
+        }
+    }
+#endif
+    return line;
+}
+
 // Pixels of which it is open whether they meet a line are drawn as if they did, unless they have a colour of their own or are to be
 // left out.
 core_lines core_lines_at(uint pixel) {
     core_lines lines;
-    const uint contour = core_flags_near(pixel, core_contour_reach), mesh = core_flags_near(pixel, core_mesh_reach);
-    lines.is_contour_undecided = (contour & CORE_FLAG_CONTOUR_UNDECIDED) != 0u;
+    // As in picture/line_stretch.glsl.
+    const core_line_here contour = core_line_near(pixel, 0u, core_contour_reach, CORE_FLAG_CONTOUR, CORE_FLAG_CONTOUR_UNDECIDED);
+    const core_line_here mesh = core_line_near(pixel, 1u, core_mesh_reach, CORE_FLAG_MESH_LINE, CORE_FLAG_MESH_UNDECIDED);
+    lines.is_contour_undecided = contour.is_undecided;
     lines.is_contour =
-        (contour & CORE_FLAG_CONTOUR) != 0u ||
+        contour.is_met ||
         (lines.is_contour_undecided && (core_contour_style & (CORE_STYLE_UNDECIDED | CORE_STYLE_ONLY_DECIDED)) == 0u);
-    lines.is_mesh_undecided = (mesh & CORE_FLAG_MESH_UNDECIDED) != 0u;
-    lines.is_mesh_line = (mesh & CORE_FLAG_MESH_LINE) != 0u ||
-                         (lines.is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
+    lines.is_mesh_undecided = mesh.is_undecided;
+    lines.is_mesh_line = mesh.is_met || (lines.is_mesh_undecided && (core_mesh_style & CORE_STYLE_UNDECIDED) == 0u);
     return lines;
 }
 

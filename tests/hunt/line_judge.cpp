@@ -238,6 +238,9 @@ void record(std::size_t pixel, std::uint32_t width, std::uint32_t flags, Verdict
 
 struct NearFlags {
     std::uint32_t flags = 0;
+    /** A line may pass nearer to the pixel's middle than half of its width, or not: which part of a pixel it meets is not told.
+     */
+    bool is_uncertain = false;
     /** The surface is not seen in one of the pixels: cut away there, it may have a line that reaches as far as this one. */
     bool has_hidden = false;
 };
@@ -245,21 +248,27 @@ struct NearFlags {
 /** Depths of neighbours that differ by this share may be of different layers. */
 constexpr double another_layer = 0.03;
 
-NearFlags flags_near(const Frame& frame, std::size_t pixel, double line_width) {
+/** Those in `of`. */
+NearFlags flags_near(const Frame& frame, std::size_t pixel, double line_width, std::uint32_t of) {
     const auto width = static_cast<int>(frame.width), height = static_cast<int>(frame.height);
     const int column = static_cast<int>(pixel) % width, row = static_cast<int>(pixel) / width;
-    const double reach = 0.5 * (line_width - 1);
-    const int most = static_cast<int>(reach);
+    // From the middle of a pixel to its corners.
+    constexpr double corner = 0.7072;
+    const double reach = 0.5 * line_width;
+    const int most = line_width > 1 ? static_cast<int>(reach + corner) : 0;
     NearFlags near;
+    std::uint32_t possible = 0;
     for (int r = std::max(0, row - most); r <= std::min(height - 1, row + most); ++r)
-        for (int c = std::max(0, column - most); c <= std::min(width - 1, column + most); ++c)
-            if ((r - row) * (r - row) + (c - column) * (c - column) <= reach * reach + 0.25) {
-                const auto there = static_cast<std::size_t>(r * width + c);
-                near.flags |= frame.flags[there];
-                // Or something far in front is cut away in one of the two.
-                near.has_hidden = near.has_hidden || std::isnan(frame.depth[there]) ||
-                                  std::abs(frame.depth[there] - frame.depth[pixel]) > another_layer * frame.depth[pixel];
-            }
+        for (int c = std::max(0, column - most); c <= std::min(width - 1, column + most); ++c) {
+            const double distance = std::hypot(r - row, c - column);
+            const auto there = static_cast<std::size_t>(r * width + c);
+            near.flags |= distance == 0 || distance <= reach - corner ? frame.flags[there] & of : 0;
+            possible |= distance <= reach + corner ? frame.flags[there] & of : 0;
+            // Or something far in front is cut away in one of the two.
+            near.has_hidden = near.has_hidden || std::isnan(frame.depth[there]) ||
+                              std::abs(frame.depth[there] - frame.depth[pixel]) > another_layer * frame.depth[pixel];
+        }
+    near.is_uncertain = possible != near.flags;
     return near;
 }
 
@@ -269,10 +278,12 @@ Color opaque(const std::array<double, 3>& rgb) { return {rgb[0], rgb[1], rgb[2],
 
 LineColor line_color_of(const Surface& surface, const Frame& frame, std::size_t pixel) {
     LineColor line;
-    bool has_cut_away = false;
+    bool has_cut_away = false, is_told = true;
     if (surface.mesh_lines) {
         const LineStyle& style = surface.mesh_lines->style;
-        const auto [flags, has_hidden] = flags_near(frame, pixel, style.width);
+        const auto [flags, is_uncertain, has_hidden] =
+            flags_near(frame, pixel, style.width, pixel_flag::mesh_line | pixel_flag::mesh_line_undecided);
+        is_told = is_told && !is_uncertain;
         has_cut_away = has_cut_away || has_hidden;
         const bool is_open = (flags & pixel_flag::mesh_line_undecided) != 0, is_met = (flags & pixel_flag::mesh_line) != 0;
         line.is_line = is_met || is_open;
@@ -282,7 +293,9 @@ LineColor line_color_of(const Surface& surface, const Frame& frame, std::size_t 
     }
     if (surface.contours) {
         const Contours& contours = *surface.contours;
-        const auto [flags, has_hidden] = flags_near(frame, pixel, contours.style.width);
+        const auto [flags, is_uncertain, has_hidden] =
+            flags_near(frame, pixel, contours.style.width, pixel_flag::contour | pixel_flag::contour_undecided);
+        is_told = is_told && !is_uncertain;
         has_cut_away = has_cut_away || has_hidden;
         const bool is_open = (flags & pixel_flag::contour_undecided) != 0, is_met = (flags & pixel_flag::contour) != 0;
         const bool has_own = contours.style.undecided_color.has_value();
@@ -297,7 +310,7 @@ LineColor line_color_of(const Surface& surface, const Frame& frame, std::size_t 
                 line.color = opaque(contours.color(static_cast<std::size_t>(nearest - contours.values.begin())));
         }
     }
-    if (has_cut_away && !surface.clip.empty())
+    if (!is_told || (has_cut_away && !surface.clip.empty()))
         return {.is_line = true};
     return line;
 }

@@ -2,6 +2,7 @@
 #include <core/render/picture/color_pass.hpp>
 #include <core/vulkan/real_array.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -34,8 +35,12 @@ std::uint32_t style_bits(const LineStyle& style) {
     return (style.undecided_color ? with_undecided_color : 0u) | (style.color ? with_own_color : 0u);
 }
 
-/** From the middle of a pixel that meets the line, to that of the farthest that is drawn. */
-float reach(const LineStyle& style) { return static_cast<float>(0.5 * (std::max(style.width, 1.0) - 1.0)); }
+float half_width(const LineStyle& style) { return static_cast<float>(0.5 * style.width); }
+
+bool has_wide_lines(const Surface& surface) {
+    return (surface.contours && surface.contours->style.width > 1) ||
+           (surface.mesh_lines && surface.mesh_lines->style.width > 1);
+}
 
 void append(std::vector<double>& numbers, const std::optional<std::array<double, 3>>& color) {
     const std::array<double, 3> rgb = color.value_or(std::array<double, 3>{});
@@ -58,14 +63,20 @@ std::array<double, 3> special_limits(const ColorTable& table, Precision precisio
     return {least, lower - beyond * (upper - lower), upper + beyond * (upper - lower)};
 }
 
-KernelRequest color_kernel(Precision precision, bool is_lit, bool has_lines, bool is_clipped, bool is_shaded) {
-    const std::string name = std::string(is_lit ? "lit_color" : "color") + (has_lines ? "_with_lines" : "") +
+KernelRequest color_kernel(Precision precision, const Surface& surface, bool is_lit) {
+    const bool has_lines = surface.has_lines(), is_clipped = !surface.clip.empty(), is_shaded = surface.lic.has_value();
+    const bool is_wide = has_wide_lines(surface);
+    const std::string name = std::string(is_lit ? "lit_color" : "color") +
+                             (is_wide     ? "_with_wide_lines"
+                              : has_lines ? "_with_lines"
+                                          : "") +
                              (is_clipped ? "_clipped" : "") + (is_shaded ? "_shaded" : "");
-    const BufferCounts buffers{.uniform = 1, .storage = (is_lit ? 7u : 5u) + (is_shaded ? 1u : 0u)};
+    const BufferCounts buffers{.uniform = 1, .storage = (is_lit ? 7u : 5u) + (is_shaded ? 1u : 0u) + (is_wide ? 1u : 0u)};
     KernelRequest request = pixel_kernel(name, precision, buffers, sizeof(ColorParameters));
     request.kernel = "picture/color.comp";
     request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
     request.defines.emplace_back("CORE_HAS_LINES", has_lines ? "1" : "0");
+    request.defines.emplace_back("CORE_HAS_WIDE_LINES", is_wide ? "1" : "0");
     request.defines.emplace_back("CORE_IS_CLIPPED", is_clipped ? "1" : "0");
     request.defines.emplace_back("CORE_IS_SHADED", is_shaded ? "1" : "0");
     return request;
@@ -77,12 +88,14 @@ ColorPass::ColorPass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision), m_frame(view_buffer(device, precision)) {}
 
 const ComposedKernel& ColorPass::provide(const Surface& surface, bool is_lit) {
-    const bool has_lines = surface.has_lines(), is_clipped = !surface.clip.empty(), is_shaded = surface.lic.has_value();
+    const bool is_wide = has_wide_lines(surface);
+    if (is_wide && !m_stretches_pass) {
+        m_stretches_pass = std::make_unique<LineStretchesPass>(m_device, m_precision);
+    }
     std::unique_ptr<ComposedKernel>& kernel =
-        m_kernels[(is_shaded ? 8u : 0u) + (is_clipped ? 4u : 0u) + (is_lit ? 2u : 0u) + (has_lines ? 1u : 0u)];
+        m_kernels[{surface.has_lines(), is_wide, is_lit, !surface.clip.empty(), surface.lic.has_value()}];
     if (!kernel) {
-        kernel =
-            std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, is_lit, has_lines, is_clipped, is_shaded));
+        kernel = std::make_unique<ComposedKernel>(m_device, color_kernel(m_precision, surface, is_lit));
     }
     return *kernel;
 }
@@ -149,8 +162,8 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      static_cast<std::uint32_t>(index),
                                      style_bits(contour) | (has_inks ? with_own_color | only_decided : 0u),
                                      style_bits(mesh),
-                                     reach(contour),
-                                     reach(mesh),
+                                     half_width(contour),
+                                     half_width(mesh),
                                      traits_of(surface.geometry).plane != nullptr ? 1u : 0u};
     const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
     std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
@@ -163,6 +176,11 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
     }
     if (shades) {
         bindings.push_back(shades);
+    }
+    if (has_wide_lines(surface)) {
+        std::vector<double> levels = isovalues;
+        std::ranges::transform(levels, levels.begin(), [&](double value) { return value - offset; });
+        bindings.push_back(&m_stretches_pass->draw(layer, levels));
     }
     dispatch_rows(provide(surface, lighting != nullptr), bindings, push_constants, layer);
 }

@@ -7,9 +7,11 @@
 #include <core/render/cut_surface/cut_plane_geometry.hpp>
 #include <core/render/frame.hpp>
 #include <core/render/picture/layer.hpp>
+#include <core/render/picture/line_stretches_pass.hpp>
 #include <core/shader/composer.hpp>
 
 #include <array>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -42,8 +44,11 @@ public:
 private:
     const Device& m_device;
     Precision m_precision;
-    /** With and without lines, light, planes that clip, and shades: what a picture does not need costs it nothing. */
-    std::array<std::unique_ptr<ComposedKernel>, 16> m_kernels;
+    /** With and without lines, wide ones, light, planes that clip, and shades: what a picture does not need costs it nothing.
+     */
+    std::map<std::array<bool, 5>, std::unique_ptr<ComposedKernel>> m_kernels;
+    /** Once it is needed. */
+    std::unique_ptr<LineStretchesPass> m_stretches_pass;
     Buffer m_frame;
     std::unique_ptr<Buffer> m_special;
     std::size_t m_n_surfaces = 0;
