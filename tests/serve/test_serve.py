@@ -339,7 +339,7 @@ class ServeTest(unittest.TestCase):
         seed = int(os.environ.get("ELVIS_FUZZ_SEED", "1"))
         n = int(os.environ.get("ELVIS_FUZZ_MESSAGES", "2000"))
         chance = random.Random(seed)
-        types = ["resize", "orbit", "pan", "zoom", "roll", "view", "projection", "camera", "release", "set", "merge", "load", "undo",
+        types = ["check", "transfer", "resize", "orbit", "pan", "zoom", "roll", "view", "projection", "camera", "release", "set", "merge", "load", "undo",
                  "redo", "add", "remove", "show", "copy", "pick", "range", "overlay", "drag", "line", "histogram", "palette", "save scene", "shown", "nonsense"]
         keys = ["dx", "dy", "x", "y", "factor", "name", "pointer", "value", "patch", "scene", "camera", "color_map", "from", "to", "handle", "item", "points", "count", "fields", "kind", "index", "shown", "column", "row",
                 "width", "height", "frame", "eye", "look_at", "up", "degrees", "orthographic", "field", "middle", "id", "time"]
