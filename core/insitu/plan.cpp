@@ -32,6 +32,10 @@ Scene scene_in(const JsonObject& output, const std::string& folder) {
     if (scene.warp || !scene.joined.empty() || scene.animation) {
         output.fail("scene", "has a warp, joined volumes or an animation, which are not drawn of a running solver");
     }
+    if (std::ranges::any_of(scene.surfaces,
+                            [](const SceneSurface& surface) { return surface.streamlines || surface.arrows; })) {
+        output.fail("scene", "has streamlines, pathlines or arrows, which are not drawn of a running solver");
+    }
     need_parts_can_draw(scene);
     return scene;
 }

@@ -1,5 +1,6 @@
 #include <core/parts/draw_in_parts.hpp>
 
+#include <core/arrows/scene_arrows.hpp>
 #include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/base/milliseconds.hpp>
@@ -14,6 +15,7 @@
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
+#include <core/session/streamline_tubes.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -47,6 +49,9 @@ std::set<std::uint32_t> fields_of(const FrameRequest& request) {
     };
     for (const Surface& surface : request.surfaces) {
         add(surface.field);
+        for (const Condition& condition : surface.conditions) {
+            add(condition.field);
+        }
         if (const Isosurfaces* const isosurfaces = traits_of(surface.geometry).isosurfaces) {
             add(isosurfaces->field);
         }
@@ -121,11 +126,16 @@ struct VolumeInParts::Impl {
     std::vector<Renderer*> renderers{};
     std::unique_ptr<WholeRanges> ranges{};
     PartsWork work{};
+    /** Whether `whole` evaluates all elements, not some alone. */
+    bool can_evaluate_whole = true;
+    StreamlineTubes streamlines{};
+    SceneArrowSets arrows{};
 
     std::unique_ptr<DrawnElements> opened(std::span<const std::uint64_t> elements, const std::array<double, 6>& bounds) const;
     void open_part(std::uint32_t part, const std::array<double, 6>& bounds);
     void open_bare_parts();
     void share_ranges(const FrameRequest& request);
+    Scene with_glyphs(const Scene& scene);
     std::vector<std::byte> draw_own(const FrameRequest& request);
     std::vector<std::byte> draw_own_light(const FrameRequest& request, std::vector<double> depths);
     Frame draw_surfaces(const FrameRequest& request);
@@ -166,6 +176,23 @@ void VolumeInParts::Impl::share_ranges(const FrameRequest& request) {
             part.elements->renderer().ranges().set_components(field, request.time_step, all);
         }
     }
+}
+
+/** Each process follows all lines, and places all arrows, by itself: they are the same in all of them. */
+Scene VolumeInParts::Impl::with_glyphs(const Scene& scene) {
+    Scene made = scene;
+    const bool has_glyphs = std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) {
+        return surface.streamlines.has_value() || surface.arrows.has_value();
+    });
+    if (has_glyphs && !can_evaluate_whole) {
+        throw Error(scene.volume, "streamlines, pathlines and arrows cannot be drawn where no process knows all elements");
+    }
+    if (has_glyphs) {
+        const TaskControl none;
+        streamlines.provide(made, whole, ranges->bounds(), control != nullptr ? *control : none);
+        arrows.provide(made, whole, ranges->bounds(), control != nullptr ? *control : none);
+    }
+    return made;
 }
 
 std::vector<std::byte> VolumeInParts::Impl::draw_own(const FrameRequest& request) {
@@ -264,6 +291,7 @@ VolumeInParts::VolumeInParts(std::shared_ptr<const native::VolumeSource> source,
             impl.open_part(static_cast<std::uint32_t>(part), bounds);
         }
     }
+    impl.can_evaluate_whole = !mapping;
     impl.ranges = std::make_unique<WholeRanges>(whole, *impl.source, impl.boxes, impl.renderers, team, std::move(mapping));
 }
 
@@ -279,11 +307,14 @@ void VolumeInParts::forget_fields(std::span<const std::uint32_t> fields) {
         part.elements->forget_fields(fields);
     }
     m_impl->ranges->forget_fields();
+    m_impl->streamlines.forget();
+    m_impl->arrows.forget();
 }
 
-PartsPicture VolumeInParts::draw(const Scene& scene) {
+PartsPicture VolumeInParts::draw(const Scene& asked) {
     Impl& impl = *m_impl;
-    need_parts_can_draw(scene);
+    need_parts_can_draw(asked);
+    const Scene scene = impl.with_glyphs(asked);
     PartsPicture picture;
     FrameRequest& request = picture.still.request;
     request = make_frame_request(scene, impl.whole, *impl.ranges);
@@ -319,17 +350,8 @@ void need_parts_can_draw(const Scene& scene) {
     if (scene.samples > 1) {
         refuse(scene, "several samples a pixel");
     }
-    if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.streamlines.has_value(); })) {
-        refuse(scene, "streamlines and pathlines");
-    }
-    if (std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.arrows.has_value(); })) {
-        refuse(scene, "arrows");
-    }
     if (scene.lic || std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.lic.has_value(); })) {
         refuse(scene, "line integral convolution");
-    }
-    if (scene.threshold) {
-        refuse(scene, "a threshold");
     }
 }
 

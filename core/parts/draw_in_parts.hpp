@@ -75,7 +75,7 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/** Throws Error if the scene has what is surely not drawn in parts: streamlines, several samples a pixel. */
+/** Throws Error if the scene has what is surely not drawn in parts: line integral convolution, several samples a pixel. */
 void need_parts_can_draw(const Scene& scene);
 
 } // namespace elvis

@@ -289,7 +289,11 @@ void add_surface(const Frame& surface, std::size_t index, Frame& picture) {
     add_work(surface, picture);
     picture.counts.overlapping_elements = surface.counts.overlapping_elements;
     picture.is_met[index] = surface.is_met.front();
-    picture.special_values[index] = surface.special_values.front();
+    // Of the surface, and of those that are added where a part of the volume ends.
+    for (const SpecialValues& one : surface.special_values) {
+        SpecialValues& all = picture.special_values[index];
+        all = {all.below || one.below, all.above || one.above, all.nan || one.nan, all.is_shown || one.is_shown};
+    }
 }
 
 void finish_surfaces(Frame& picture) {

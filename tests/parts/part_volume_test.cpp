@@ -115,9 +115,6 @@ TEST_CASE("What cannot be drawn in parts is refused") {
                std::string::npos;
     };
     CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5}])"));
-    CHECK(refused(R"("surfaces": [{"type": "streamlines", "flow": "velocity"}])"));
-    CHECK(refused(R"("surfaces": [{"type": "arrows", "vectors": "velocity"}])"));
-    CHECK(refused(R"("threshold": "x < 0.5")"));
     CHECK(refused(R"("lic": {"field": "velocity"})"));
     CHECK(refused(R"("surfaces": [{"type": "boundary", "lic": {"field": "velocity"}}])"));
     CHECK(refused(R"("surfaces": [{"type": "elements"}])"));

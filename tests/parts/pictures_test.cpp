@@ -2,6 +2,10 @@
 
 #include "parts_fixture.hpp"
 
+#include <core/arrows/scene_arrows.hpp>
+#include <core/session/streamline_tubes.hpp>
+#include <core/session/volume/describe_volume.hpp>
+
 #include <catch2/catch.hpp>
 
 #include <cmath>
@@ -148,6 +152,38 @@ TEST_CASE("Lines in parts are those of the whole, or flagged") {
             {"wide ones on the boundary",
              R"("surfaces": [{"type": "boundary"}], "contours": {"values": [0], "width": 5}, "mesh_lines": {"width": 3})"},
             4);
+}
+
+TEST_CASE("Thresholds in parts are those of the whole") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    compare(stage, {"a threshold alone", R"("threshold": "waves > 0.1 && x < 0.4")"}, 3);
+    compare(stage,
+            {"a threshold of other surfaces",
+             R"("threshold": "waves > 0.1", "surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}, {"type": "boundary"},
+                {"type": "isosurface", "field": "x^2 + y^2 + z^2", "values": [0.7]}], "lighting": "default")"},
+            4);
+}
+
+TEST_CASE("Arrows, streamlines and pathlines in parts are those of the whole") {
+    Stage stage(
+        R"({"generator": 1, "mesh": "box", "elements": [4, 3, 3], "order": 3, "fields": ["taylor-green"], "time_steps": 3})");
+    const char* const boundary = R"({"type": "boundary", "name": "wall", "clip": [[0, 0, -1, -0.2]]})";
+    const auto with = [&](const std::string& more) { return std::string(R"("surfaces": [)") + boundary + ", " + more + "]"; };
+    for (const auto& [name, keys] :
+         {std::pair{"arrows on the boundary", with(R"({"type": "arrows", "vectors": "velocity", "on": "wall", "scale": 0.3})")},
+          std::pair{"arrows in the volume", with(R"({"type": "arrows", "vectors": "velocity", "field": "pressure"})")},
+          std::pair{"streamlines", with(R"({"type": "streamlines", "flow": "velocity", "radius": 0.03, "seed_grid": 3})")},
+          std::pair{"pathlines", with(R"({"type": "pathlines", "flow": "velocity", "radius": 0.03, "seed_grid": 3})")}}) {
+        const Scene scene = stage.scene(keys);
+        Scene whole = scene;
+        StreamlineTubes tubes;
+        SceneArrowSets arrows;
+        const TaskControl control;
+        const std::array<double, 6> bounds = bounds_of(stage.volume()).first;
+        tubes.provide(whole, stage.volume(), bounds, control);
+        arrows.provide(whole, stage.volume(), bounds, control);
+        compare({name, keys.c_str()}, 3, stage.as_whole(whole), stage.in_parts(scene, 3));
+    }
 }
 
 TEST_CASE("Parts without elements change nothing") {
