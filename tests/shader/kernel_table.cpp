@@ -27,15 +27,15 @@ const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_c
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
     for (const char* kernel :
          {"picture/background", "picture/blend", "picture/condition", "isosurface/list_open_pixels", "picture/lic",
-          "picture/lic_component", "picture/lic_directions", "picture/lic_owners", "picture/merge", "picture/occlude",
-          "picture/order_layers", "picture/screen", "picture/take_layer", "volume/volume_begin", "volume/volume_finish",
-          "volume/volume_runs", "volume/volume_transparency"}) {
+          "picture/lic_component", "picture/lic_directions", "picture/lic_owners", "picture/line_stretches", "picture/merge",
+          "picture/occlude", "picture/order_layers", "picture/screen", "picture/take_layer", "volume/volume_begin",
+          "volume/volume_finish", "volume/volume_runs", "volume/volume_transparency"}) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
     uses.push_back({.kernel = "picture/settle_flags", .choices = {pixel_group, {"CORE_PIXELS_EACH", {"8u"}}}});
     uses.push_back({.kernel = "picture/color",
                     .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES"),
-                                no_or_yes("CORE_IS_CLIPPED"), no_or_yes("CORE_IS_SHADED")}});
+                                no_or_yes("CORE_HAS_WIDE_LINES"), no_or_yes("CORE_IS_CLIPPED"), no_or_yes("CORE_IS_SHADED")}});
     uses.push_back({.kernel = "picture/list_pixels", .choices = {pixel_group, width, height}});
     uses.push_back({.kernel = "volume/live_rays", .choices = {width, height, group_width, {"CORE_GROUPS", {"16u"}}}});
     uses.push_back({.kernel = "cut_surface/surface_outside", .choices = {pixel_group, no_or_yes("CORE_ON_PLANE")}});

@@ -268,7 +268,7 @@ void check_limits(const char* name, FrameRequest request, const RuntimeVolume& v
         CHECK(4 * counts[2].undecided <= counts[0].undecided);
         CHECK(2 * counts[4].undecided <= counts[2].undecided);
     }
-    CHECK(contours[4].undecided <= contours[4].hit / 1000);
+    CHECK(contours[4].undecided <= contours[4].hit / 800);
     CHECK(lines[4].undecided <= lines[4].hit / 200);
 }
 
