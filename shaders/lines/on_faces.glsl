@@ -8,7 +8,6 @@
 #include "boundary/face_patch.glsl"
 #include "element/face_frame.glsl"
 #include "lines/surface_box.glsl"
-#include "lines/one_sheet.glsl"
 #include "lines/own_face.glsl"
 
 #define CORE_MOVES_FIRST 0
@@ -92,13 +91,9 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     // A line is met on faces that face the viewer as the one that the pixel shows; both sides of an element of two dimensions do.
     const bool is_facing = CORE_HAS_TWO_DIMENSIONS || square.enters == surface.enters;
     const bool is_shown = core_is_shown_face(surface, search.item, search.own_face);
-    bool is_in_view = square.is_seen && is_facing && (is_shown || (surface.listed.around.is_smooth && !surface.is_oblique));
-    if (is_in_view && is_shown && surface.is_oblique && !CORE_HAS_TWO_DIMENSIONS) {
-        const elvis_vec3 shown = elvis_vec3(surface.place.x, surface.place.y, surface.place.z);
-        is_in_view = core_is_one_sheet(image.element, search.own_face, shown, square.subpixel.middle, surface.listed.ray.direction,
-                                       square.enters);
-    }
-    square.is_seen = is_in_view;
+    // What is seen at a small angle lines/face_lines_careful.comp decides.
+    const bool is_in_view = !surface.is_oblique && (is_shown || surface.listed.around.is_smooth);
+    square.is_seen = square.is_seen && is_facing && is_in_view;
     // Another sheet of the surface, farther behind than a smooth one departs from its plane: hidden by this one.
     const core_cut_square corners = square.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
