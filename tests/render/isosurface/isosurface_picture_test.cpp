@@ -287,7 +287,8 @@ TEST_CASE("contours and mesh lines are drawn on isosurfaces") {
     CHECK(n_mesh > 120);
     CHECK(n_missed == 0);
     CHECK(n_invented == 0);
-    CHECK(n_open < 450);
+    // 425: beside silhouettes, where the surface departs far from its tangent planes.
+    CHECK(n_open < 430);
 }
 
 TEST_CASE("mesh lines on isosurfaces in bent elements are lines, not areas") {
