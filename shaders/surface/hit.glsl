@@ -19,6 +19,8 @@ struct core_surface_ray {
     // Crossings count behind `after`, by more than their error if a crossing lies there, too.
     elvis_real from, to, after;
     bool is_behind_crossing;
+    // What else the pixel may show matters: where it may be another sheet of the surface, the hit has no bound of its bending.
+    bool with_whole_pixel;
     // Rounding error of the ray's points between from and to, in each coordinate.
     elvis_real noise;
     // Where the surface is seen up to `from` and `to` only: what rounding may make of these. Else far below zero.

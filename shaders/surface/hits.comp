@@ -39,6 +39,8 @@ layout(push_constant) uniform core_parameters {
     uint core_surface_number;
     uint core_round;
     uint core_has_beyond;
+    // What else of the surface a pixel may show is wanted: lines are looked for in whole pixels.
+    uint core_with_whole_pixels;
 };
 
 shared float core_lane_boxes[6 * CORE_TILE_WIDTH];
@@ -89,6 +91,7 @@ core_surface_ray core_surface_ray_of(core_cut_column along, elvis_real row, uint
     const elvis_real stretch = length(ray.direction);
     ray.after = core_after(pixel, stretch, along.reference_distance);
     ray.is_behind_crossing = core_round > 0u || core_has_beyond != 0u;
+    ray.with_whole_pixel = core_with_whole_pixels != 0u;
     const elvis_real tiny = elvis_real(1e-30LF);
     const elvis_vec3 inverse = elvis_real(1) / mix(ray.direction, elvis_vec3(tiny), lessThan(abs(ray.direction), elvis_vec3(tiny)));
     const elvis_vec3 one = (core_shape[0].xyz - ray.origin) * inverse, other = (core_shape[1].xyz - ray.origin) * inverse;

@@ -3,7 +3,7 @@
 // whatever triangle it belongs to; the signs of the three edge functions are exact for these numbers, and a ray through an edge
 // belongs to both sides. So no ray passes between triangles that share their corners.
 //
-// Rows: xyz: reference point minus the origin of corners and hierarchy; w: 1 if lines are looked for in pixels, else 0.
+// Rows: xyz: reference point minus the origin of corners and hierarchy.
 //
 // Buffers: core_triangles, nine numbers each; core_nodes.
 
@@ -60,14 +60,24 @@ elvis_vec3 core_sheared(core_shear shear, elvis_vec3 point) {
     return elvis_vec3(x, y, z);
 }
 
-void core_consider_triangle(uint triangle, bool is_active, core_surface_ray ray, elvis_vec3 origin, core_shear shear,
-                            inout core_votes votes, inout core_hit best) {
+// Relative to the ray's origin.
+struct core_triangle {
+    elvis_vec3 a, b, c;
+};
+
+core_triangle core_triangle_from(uint triangle, elvis_vec3 origin) {
     const elvis_vec4 row0 = elvis_fetch4_core_triangles(triangle, 0u), row1 = elvis_fetch4_core_triangles(triangle, 1u);
     const elvis_vec4 row2 = elvis_fetch4_core_triangles(triangle, 2u);
-    precise const elvis_vec3 corner_a = row0.xyz - origin;
-    precise const elvis_vec3 corner_b = elvis_vec3(row0.w, row1.xy) - origin;
-    precise const elvis_vec3 corner_c = elvis_vec3(row1.zw, row2.x) - origin;
-    const elvis_vec3 a = core_sheared(shear, corner_a), b = core_sheared(shear, corner_b), c = core_sheared(shear, corner_c);
+    precise const elvis_vec3 a = row0.xyz - origin;
+    precise const elvis_vec3 b = elvis_vec3(row0.w, row1.xy) - origin;
+    precise const elvis_vec3 c = elvis_vec3(row1.zw, row2.x) - origin;
+    return core_triangle(a, b, c);
+}
+
+void core_consider_triangle(uint triangle, bool is_active, core_surface_ray ray, elvis_vec3 origin, core_shear shear,
+                            inout core_votes votes, inout core_hit best) {
+    const core_triangle corners = core_triangle_from(triangle, origin);
+    const elvis_vec3 a = core_sheared(shear, corners.a), b = core_sheared(shear, corners.b), c = core_sheared(shear, corners.c);
     const elvis_real u = core_edge_function(c.x, b.y, c.y, b.x);
     const elvis_real v = core_edge_function(a.x, c.y, a.y, c.x);
     const elvis_real w = core_edge_function(b.x, a.y, b.y, a.x);
@@ -78,14 +88,14 @@ void core_consider_triangle(uint triangle, bool is_active, core_surface_ray ray,
     const elvis_real t = (u * a.z + v * b.z + w * c.z) * inverse * shear.scale;
 
     // Across the ray a corner is off by this much; an edge function by that times the edge's length.
-    const elvis_real far = max(max(core_norm1(corner_a), core_norm1(corner_b)), core_norm1(corner_c));
+    const elvis_real far = max(max(core_norm1(corners.a), core_norm1(corners.b)), core_norm1(corners.c));
     const elvis_real off = elvis_real(2) * ray.noise + elvis_real(8) * CORE_ROUNDOFF * far;
     const elvis_real tolerance_u = off * (abs(c.x - b.x) + abs(c.y - b.y)), tolerance_v = off * (abs(a.x - c.x) + abs(a.y - c.y));
     const elvis_real tolerance_w = off * (abs(b.x - a.x) + abs(b.y - a.y));
     const elvis_real side = area < elvis_real(0) ? elvis_real(-1) : elvis_real(1);
     const bool is_near = side * u >= -tolerance_u && side * v >= -tolerance_v && side * w >= -tolerance_w;
     const bool is_clear = side * u >= tolerance_u && side * v >= tolerance_v && side * w >= tolerance_w;
-    const elvis_vec3 normal = cross(corner_b - corner_a, corner_c - corner_a);
+    const elvis_vec3 normal = cross(corners.b - corners.a, corners.c - corners.a);
     const elvis_real across = abs(dot(normal, ray.direction));
     const elvis_real error = off * core_norm1(normal) / max(across, elvis_real(1e-30LF) * core_norm1(normal));
     const bool counts = is_active && is_regular && is_near && core_is_counted(ray, t, error, best);
@@ -108,13 +118,10 @@ core_pixel_size core_pixel_size_at(core_shear shear, elvis_real t) {
 
 // Whether the triangle reaches into the pixel in front of what the ray meets, or not far behind, and is another sheet.
 bool core_is_other_sheet(uint triangle, core_surface_ray ray, elvis_vec3 origin, core_shear shear, core_hit hit) {
-    const elvis_vec4 row0 = elvis_fetch4_core_triangles(triangle, 0u), row1 = elvis_fetch4_core_triangles(triangle, 1u);
-    const elvis_vec4 row2 = elvis_fetch4_core_triangles(triangle, 2u);
-    const elvis_vec3 corner_a = row0.xyz - origin, corner_b = elvis_vec3(row0.w, row1.xy) - origin;
-    const elvis_vec3 corner_c = elvis_vec3(row1.zw, row2.x) - origin;
-    const elvis_vec3 a = core_sheared(shear, corner_a), b = core_sheared(shear, corner_b), c = core_sheared(shear, corner_c);
+    const core_triangle corners = core_triangle_from(triangle, origin);
+    const elvis_vec3 a = core_sheared(shear, corners.a), b = core_sheared(shear, corners.b), c = core_sheared(shear, corners.c);
     const elvis_vec3 hit_normal = elvis_vec3(hit.normal_x, hit.normal_y, hit.normal_z);
-    const elvis_vec3 normal = cross(corner_b - corner_a, corner_c - corner_a);
+    const elvis_vec3 normal = cross(corners.b - corners.a, corners.c - corners.a);
     const elvis_vec3 t = shear.scale * elvis_vec3(a.z, b.z, c.z);
     const elvis_real stretch = length(ray.direction), hit_size = length(hit_normal), size = length(normal);
     const elvis_real cosine = max(abs(dot(hit_normal, ray.direction)) / (hit_size * stretch), elvis_real(1e-3LF));
@@ -130,7 +137,7 @@ bool core_is_other_sheet(uint triangle, core_surface_ray ray, elvis_vec3 origin,
                             side * v >= -(pixel.across * ca.y + pixel.down * ca.x) &&
                             side * w >= -(pixel.across * ab.y + pixel.down * ab.x);
     const bool is_alike = abs(dot(normal, hit_normal)) >= CORE_SAME_SHEET * size * hit_size &&
-                          abs(dot(normal, hit.t * ray.direction - corner_a)) <= CORE_SHEET_ROOM * pixel.world * size;
+                          abs(dot(normal, hit.t * ray.direction - corners.a)) <= CORE_SHEET_ROOM * pixel.world * size;
     return is_reached && min(min(t.x, t.y), t.z) <= last && !is_alike;
 }
 
@@ -178,7 +185,7 @@ core_hit core_next_hit(core_surface_ray ray) {
     }
     best.is_undecided = best.is_undecided || core_is_undecided(votes, best);
     best.is_cut_short = stack_size > 0u;
-    if (CORE_SHAPE(0).w > elvis_real(0) && core_may_show_more(ray, origin, shear, box_ray, best)) {
+    if (ray.with_whole_pixel && core_may_show_more(ray, origin, shear, box_ray, best)) {
         best.bending = CORE_FAR;
     }
     return best;

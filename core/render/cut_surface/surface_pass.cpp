@@ -111,7 +111,13 @@ std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round
         items_a_dispatch(m_device, std::max(1u, pixels_a_dispatch / (picture.tiles_a_row * tile_pixels)));
     m_hit_counts.fill(0);
     for (std::uint32_t first_row = picture.wanted.first; first_row < picture.wanted.end; first_row += rows_a_dispatch) {
-        const HitsParameters hits{layer.width, layer.height, first_row, picture.surface, round, beyond != nullptr ? 1u : 0u};
+        const HitsParameters hits{layer.width,
+                                  layer.height,
+                                  first_row,
+                                  picture.surface,
+                                  round,
+                                  beyond != nullptr ? 1u : 0u,
+                                  picture.target.places != nullptr ? 1u : 0u};
         picture.solver.find(m_frame, bindings, std::as_bytes(std::span(&hits, 1)), picture.tiles_a_row,
                             std::min(rows_a_dispatch, picture.wanted.end - first_row));
     }
@@ -166,7 +172,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     write_view(m_frame, m_precision, view);
     const bool shows_all = shows_outside || solver.has_own_values();
     solver.begin(shape, view, shows_all ? box_of(shape, m_data.bounds()) : m_data.bounds(), picture.most_error,
-                 shows_all && is_endless(shape), target.places != nullptr);
+                 shows_all && is_endless(shape));
     m_counts.fill(0);
     const OpenPoints::Surface open{
         surface, component, target, m_frame, m_counts, &*m_hits, static_cast<float>(picture.most_error)};

@@ -265,7 +265,7 @@ void SurfaceSolver::upload_nodes(std::span<const double> boxes, const Vector3& m
 }
 
 void SurfaceSolver::begin(const CutShape& shape, const CutPlaneGeometry& view, const std::array<double, 6>& bounds,
-                          double most_error, bool ends_in_box, bool with_lines) const {
+                          double most_error, bool ends_in_box) const {
     const std::array<double, 4>& at = view.rows[6];
     const Vector3 reference = {at[0], at[1], at[2]};
     const ShapeFrame frame = shape_frame(shape, minus(reference, m_origin));
@@ -274,9 +274,6 @@ void SurfaceSolver::begin(const CutShape& shape, const CutPlaneGeometry& view, c
         {bounds[3] - reference[0], bounds[4] - reference[1], bounds[5] - reference[2], ends_in_box ? 1.0 : 0.0}};
     rows.insert(rows.end(), frame.rows.begin(), frame.rows.end());
     assert(rows.size() == m_n_rows);
-    if (std::holds_alternative<MeshSurface>(shape)) {
-        rows[2][3] = with_lines ? 1 : 0;
-    }
     write_reals(*m_rows, m_precision, std::span<const double>(rows.front().data(), 4 * rows.size()));
 }
 

@@ -35,10 +35,10 @@ public:
     /**
      * Prepares a picture of a shape with the solver's key. `bounds`: min x y z, max x y z; crossings are looked for in this
      * box. `most_error`: error of a crossing along the ray, in world length, from which on its pixel is undecided.
-     * `ends_in_box`: the box ends what is seen of the shape. `with_lines`: lines are looked for in whole pixels.
+     * `ends_in_box`: the box ends what is seen of the shape.
      */
     void begin(const CutShape& shape, const CutPlaneGeometry& view, const std::array<double, 6>& bounds, double most_error,
-               bool ends_in_box = false, bool with_lines = false) const;
+               bool ends_in_box = false) const;
 
     /** What begin() wrote. */
     const Buffer& rows() const { return *m_rows; }
@@ -84,6 +84,7 @@ struct HitsParameters {
     std::uint32_t surface;
     std::uint32_t round;
     std::uint32_t has_beyond;
+    std::uint32_t with_whole_pixels;
 };
 
 } // namespace elvis
