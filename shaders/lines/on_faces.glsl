@@ -98,7 +98,8 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     const core_cut_square corners = square.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
     const elvis_real height = dot(surface.listed.tangent.normal, middle - surface.listed.tangent.point);
-    square.is_hidden = surface.listed.around.is_smooth && !is_shown && !square.approach.is_far && height < elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
+    square.is_hidden = surface.listed.around.is_smooth && !is_shown && !square.approach.is_far &&
+                       height < elvis_real(-0.5LF) * elvis_real(surface.box.diagonal);
     return square;
 }
 

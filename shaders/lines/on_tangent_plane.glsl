@@ -47,7 +47,9 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
 #else
     const bool is_left = false;
 #endif
-    const bool is_known = surface.corners.all_hit && !listed.around.may_be_hidden && !is_edge_on && is_searched && !is_left;
+    const bool is_bounded = bent.distance < CORE_FAR;
+    const bool is_known =
+        surface.corners.all_hit && is_bounded && !listed.around.may_be_hidden && !is_edge_on && is_searched && !is_left;
     const uint most_level = is_smooth ? core_subdivisions : min(core_subdivisions, CORE_ROUGH_LEVEL);
     core_line_search search = core_begin_listed(listed, most_level, is_known, is_known);
     search.lines.is_estimated = !is_smooth || bent.is_estimated;

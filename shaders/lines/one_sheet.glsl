@@ -1,4 +1,5 @@
-// Whether a face that faces the viewer at two points does so in one piece. If not, the one point lies behind a silhouette of the face itself.
+// Whether a face that faces the viewer at two points does so in one piece. If not, the one point lies behind a silhouette of the face
+// itself.
 
 #ifndef CORE_ONE_SHEET
 #define CORE_ONE_SHEET

@@ -96,8 +96,9 @@ struct core_departure {
     bool is_estimated;
 };
 
-// How far along a ray a surface with normal curvatures of `bend` at most may be from its tangent plane at a point p, where the ray meets the
-// plane at the distance d from p: at the point that the ray meets, at the distance s from the plane's, the surface is off the plane by
+// How far along a ray a surface with normal curvatures of `bend` at most may be from its tangent plane at a point p, where the ray meets
+// the plane at the distance d from p: at the point that the ray meets, at the distance s from the plane's, the surface is off the plane
+// by
 //
 //     s cosine <= bend / 2 (d^2 + 2 d s + s^2),
 //
@@ -105,11 +106,12 @@ struct core_departure {
 elvis_real core_departure_along(elvis_real bend, elvis_real d, elvis_real cosine) {
     const elvis_real turn = bend * d, room = cosine - turn, square = room * room - turn * turn;
     const bool is_bounded = room > elvis_real(0) && square > elvis_real(0);
-    return is_bounded ? turn * d / (room + sqrt(square)) : bend > elvis_real(0) ? CORE_FAR : elvis_real(0);
+    return is_bounded ? turn * d / (room + sqrt(max(square, elvis_real(0)))) : bend > elvis_real(0) ? CORE_FAR : elvis_real(0);
 }
 
-// What the surface may depart from its tangent plane in a square of the picture, of this half of a side. Triangles are flat but not together: what normals of neighbours
-// tell counts, too. Twice that stands for a bending that is not known, or, unless `takes_loose`, known by a loose bound alone.
+// What the surface may depart from its tangent plane in a square of the picture, of this half of a side. Triangles are flat but not
+// together: what normals of neighbours tell counts, too. Twice that stands for a bending that is not known, or, unless `takes_loose`,
+// known by a loose bound alone.
 core_departure core_departure_in(core_cut_square square, core_tangent tangent, core_cut_ray ray, elvis_real half_size,
                                  elvis_real bending, elvis_real turning, bool takes_loose) {
     // Of all rays in the square.

@@ -26,8 +26,8 @@ struct core_colleague_root {
 elvis_real core_colleague_matrix[CORE_FIT_DEGREE * CORE_FIT_DEGREE];
 #define CORE_H(row, column) core_colleague_matrix[(row) * CORE_FIT_DEGREE + (column)]
 
-// Of the series p - value, of which no more is known than within `error`; the number of rows, less where leading coefficients are rounding or
-// too small to be known: divided by such a one, the others would be so large that rounding moves roots anywhere.
+// Of the series p - value, of which no more is known than within `error`; the number of rows, less where leading coefficients are
+// rounding or too small to be known: divided by such a one, the others would be so large that rounding moves roots anywhere.
 int core_colleague_fill(core_polynomial chebyshev, elvis_real value, elvis_real error) {
     const elvis_real half_ = elvis_real(0.5LF);
     chebyshev.c[0] -= value;
