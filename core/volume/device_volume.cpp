@@ -132,7 +132,6 @@ void DeviceVolume::build_class(std::uint32_t element_class) {
         }
         data.elements =
             std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, info.n_elements, element_record_size);
-        data.curvature_records = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, info.n_elements, 2);
     }
     m_classes.push_back(std::move(data));
 }
@@ -237,13 +236,9 @@ void DeviceVolume::write_elements() {
         const ElementBoxes said =
             said_boxes(data.hierarchy, info.n_elements,
                        std::span<const double>(m_origins).subspan(3 * info.first_element, n_origins), m_centre);
-        data.curvatures = writers[element_class]->write(said, *data.elements, started);
-        std::vector<double> numbers;
-        numbers.reserve(2 * info.n_elements);
-        for (std::uint64_t element = 0; element < info.n_elements; ++element) {
-            numbers.insert(numbers.end(), {data.curvatures.numbers[element], data.curvatures.are_proven[element] ? 1.0 : 0.0});
-        }
-        data.curvature_records->write_reals(0, numbers);
+        ElementCurvatures curvatures = writers[element_class]->write(said, *data.elements, started);
+        data.curvature_records.write(m_device, m_precision, curvatures);
+        data.curvatures = std::move(curvatures.numbers);
     }
 }
 
@@ -353,18 +348,21 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
             request.buffers.push_back(derivative_bounds(element_class, index));
         }
     }
+    const auto add_once = [&](const FetchBuffer& wanted) {
+        const auto is_it = [&](const FetchBuffer& buffer) { return buffer.name == wanted.name; };
+        if (std::ranges::none_of(request.buffers, is_it)) {
+            request.buffers.push_back(wanted);
+        }
+    };
     if (with_bounds) {
-        request.buffers.push_back(curvature_records(element_class));
+        std::ranges::for_each(curvature_records(element_class).buffers(), add_once);
     }
     if (m_is_own_boundary) {
         request.text = "#include \"field/own_boundary.glsl\"\n";
     }
     if (m_expression) {
         // For the element's number.
-        const auto is_elements = [](const FetchBuffer& buffer) { return buffer.name == "core_elements"; };
-        if (std::none_of(request.buffers.begin(), request.buffers.end(), is_elements)) {
-            request.buffers.push_back({"core_elements", m_classes[element_class].elements.get()});
-        }
+        add_once(elements(element_class));
         const ExpressionClass info = about_class(element_class);
         request.text = value_glsl(*m_expression, info);
         if (with_bounds) {
@@ -379,8 +377,10 @@ FetchBuffer DeviceVolume::elements(std::uint32_t element_class) const {
     return {"core_elements", m_classes[element_class].elements.get()};
 }
 
-FetchBuffer DeviceVolume::curvature_records(std::uint32_t element_class) const {
-    return {"core_curvatures", m_classes[element_class].curvature_records.get()};
+std::pair<std::string, std::string> DeviceVolume::strongly_bent_define(std::uint32_t element_class) const {
+    const bool is_bent = std::ranges::any_of(m_classes[element_class].curvatures,
+                                             [](float curvature) { return curvature > most_measured_curvature; });
+    return {"CORE_STRONGLY_BENT", is_bent ? "1" : "0"};
 }
 
 std::vector<FetchBuffer> DeviceVolume::host_buffers(std::uint32_t element_class) const {
@@ -434,9 +434,10 @@ std::uint64_t DeviceVolume::geometry_bytes() const {
 std::uint64_t DeviceVolume::hierarchy_bytes() const {
     std::uint64_t sum = 0;
     for (const ClassData& data : m_classes) {
-        for (const auto* records : {&data.nodes, &data.origins, &data.elements, &data.curvature_records}) {
+        for (const auto* records : {&data.nodes, &data.origins, &data.elements}) {
             sum += *records ? (*records)->bytes() : 0;
         }
+        sum += data.curvature_records.bytes();
     }
     return sum;
 }

@@ -10,6 +10,7 @@
 #include <core/hierarchy/hierarchy.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/shader/composer.hpp>
+#include <core/volume/element/curvature_records.hpp>
 #include <core/volume/element/element_records.hpp>
 #include <core/vulkan/buffer.hpp>
 
@@ -17,6 +18,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -95,16 +98,19 @@ public:
 
     /** `core_elements`: number and linearized inverse mapping of the class's elements (shaders/element/linearization.glsl). */
     FetchBuffer elements(std::uint32_t element_class) const;
-    /** `core_curvatures`: that of each of the class's elements, and 1 if it is proven, else 0. */
-    FetchBuffer curvature_records(std::uint32_t element_class) const;
+    /** Of the class's elements, once a field is selected. */
+    const CurvatureRecords& curvature_records(std::uint32_t element_class) const {
+        return m_classes[element_class].curvature_records;
+    }
     /** Nodes of the class's hierarchy as `core_nodes`, and its elements. */
     std::vector<FetchBuffer> host_buffers(std::uint32_t element_class) const;
     /** Of the class's elements. */
     const Hierarchy& hierarchy(std::uint32_t element_class) const { return m_classes[element_class].hierarchy; }
     /** Of the mapping of each element of the class (shaders/element/prediction.glsl), once a field is selected. */
-    std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures.numbers; }
-    /** ElementCurvatures::bends. */
-    std::span<const ElementBends> bends(std::uint32_t element_class) const { return m_classes[element_class].curvatures.bends; }
+    std::span<const float> curvatures(std::uint32_t element_class) const { return m_classes[element_class].curvatures; }
+
+    /** CORE_STRONGLY_BENT: "1" if the class has elements in which what is measured of curvatures may be too little. */
+    std::pair<std::string, std::string> strongly_bent_define(std::uint32_t element_class) const;
 
     /**
      * Makes bounds of the selected fields and their derivatives in every element, if they are not there yet. For kernels that
@@ -147,8 +153,8 @@ private:
         std::unique_ptr<RecordBuffer> nodes;
         std::unique_ptr<RecordBuffer> origins;
         std::unique_ptr<RecordBuffer> elements;
-        ElementCurvatures curvatures;
-        std::unique_ptr<RecordBuffer> curvature_records;
+        std::vector<float> curvatures;
+        CurvatureRecords curvature_records;
     };
 
     void read_bounds(const std::optional<std::array<double, 6>>& bounds_of_whole);

@@ -48,16 +48,18 @@ void main() {
     const uint column = pixel % core_width, row = pixel / core_width;
     const uint owner = core_marks[pixel].owner;
     const core_surface surface =
-        core_plane_at(elvis_real(column), elvis_real(row), owner != 0u && (owner & CORE_OWNER_KEY) == 0u);
+        core_plane_at(elvis_real(column), elvis_real(row), owner != 0u && (owner & CORE_OWNER_KEY) == 0u, owner == 0u);
     const bool is_seen = is_pixel && !surface.is_absent;
     const core_line_marks wanted =
         core_no_lines_yet(is_seen && core_n_isovalues > 0u, is_seen && core_with_mesh_lines != 0u);
     core_line_search search = core_begin_search(elvis_real(column), elvis_real(row), core_subdivisions, wanted, false);
     search.stack_size = core_stack_tile(column, row);
     core_search_lines(surface, search);
-    const bool is_cut_short = core_is_unfinished(search) || core_has_driver_given_up(core_width >> 31);
+    // What was found with loops that the driver had ended says nothing.
+    const bool has_driver_given_up = core_has_driver_given_up(core_width >> 31);
+    core_doubt_lines(has_driver_given_up, search.lines);
     if (is_pixel) {
-        core_mark_lines(pixel, search.lines, core_undecided_lines(search.lines, is_cut_short));
+        core_mark_lines(pixel, search.lines, core_undecided_lines(search.lines, core_is_unfinished(search) || has_driver_given_up));
     }
     core_count(0u, search.n_evaluations);
 }

@@ -76,11 +76,12 @@ core_line_search core_begin_listed(core_listed_pixel listed, uint most_level, bo
 }
 
 void core_store_or_relist(core_listed_pixel listed, core_line_search search) {
-    const bool is_cut_short = core_is_unfinished(search) || core_has_driver_given_up(core_size.x >> 31);
+    const bool has_driver_given_up = core_has_driver_given_up(core_size.x >> 31);
     const core_cut_square square =
         core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, elvis_real(0.5LF)));
-    core_doubt_lines(core_may_end_near(listed.pixel, square, listed.tangent), search.lines);
-    const core_undecided open = core_undecided_lines(search.lines, is_cut_short);
+    // What was found with loops that the driver had ended says nothing.
+    core_doubt_lines(has_driver_given_up || core_may_end_near(listed.pixel, square, listed.tangent), search.lines);
+    const core_undecided open = core_undecided_lines(search.lines, core_is_unfinished(search) || has_driver_given_up);
     const bool is_last = core_open_count == 0u;
     if (listed.is_pixel && !is_last && core_is_any(open)) {
         core_open[atomicAdd(core_counts[core_open_count], 1u)] = core_word_of(listed.pixel, open);

@@ -15,8 +15,8 @@
 struct core_surface {
     core_cut_square corners;
     core_box box;
-    // The plane lies in faces, and elements on its far side are hidden by those on the near one.
-    bool hides_behind;
+    // Where the plane lies in faces, elements on its far side are hidden by those on the near one; or may be: the pixel's middle shows none.
+    bool hides_behind, may_hide_behind;
     // Distance along the axis of view behind which there is no element.
     elvis_real volume_end;
     // None of it is seen in the pixel.
@@ -27,7 +27,7 @@ bool core_shows_nothing(core_cut_square corners, core_picture_square place, elvi
     return !corners.all_hit && (!corners.any_hit || core_is_square_behind_volume(place, volume_end));
 }
 
-core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind) {
+core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind, bool may_hide_behind) {
     const core_picture_square place = core_picture_square(column, row, elvis_real(0.5LF));
     core_surface surface;
     surface.corners = core_cut_corners(place);
@@ -36,6 +36,7 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind)
         surface.box = core_box_around(surface.corners, surface.corners.error, 0.0);
     }
     surface.hides_behind = hides_behind;
+    surface.may_hide_behind = may_hide_behind;
     surface.volume_end = core_volume_end();
     surface.is_absent = core_shows_nothing(surface.corners, place, surface.volume_end);
     return surface;
@@ -44,7 +45,7 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind)
 void core_select_item(const core_surface surface, uint element, inout core_line_search search) {
     const core_cut_square corners = surface.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
-    core_select_element(element, corners, middle, elvis_real(1), search);
+    core_select_element(element, corners, middle, core_plane_normal.xyz, elvis_real(1), search);
 }
 
 core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
@@ -55,6 +56,7 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     square.is_absent = core_shows_nothing(corners, place, surface.volume_end);
     square.is_hidden = square.subpixel.is_grazed || (square.subpixel.is_behind && surface.hides_behind);
     square.is_seen = square.is_seen && !(square.subpixel.may_be_behind && surface.hides_behind);
+    square.may_hide_contour = surface.may_hide_behind && (square.subpixel.is_behind || square.subpixel.may_be_behind);
     return square;
 }
 

@@ -33,7 +33,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
 
 void core_select_item(const core_surface surface, uint element, inout core_line_search search) {
     const elvis_vec3 middle = elvis_real(0.5LF) * (surface.corners.corner0 + surface.corners.corner1);
-    core_select_element(element, surface.corners, middle, elvis_real(0), search);
+    core_select_element(element, surface.corners, middle, surface.listed.tangent.normal, elvis_real(0), search);
 }
 
 core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,

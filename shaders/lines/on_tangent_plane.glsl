@@ -59,7 +59,9 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
 void core_select_item(const core_surface surface, uint element, inout core_line_search search) {
     // What the surface departs from its tangent plane is less than the pixel's size where it is smooth.
     const elvis_real room = surface.listed.around.is_smooth ? elvis_real(2) : elvis_real(0);
-    core_select_element(element, surface.corners, surface.listed.tangent.point, room, search);
+    core_cut_square corners = surface.corners;
+    corners.error += surface.departure;
+    core_select_element(element, corners, surface.listed.tangent.point, surface.listed.tangent.normal, room, search);
 }
 
 core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,

@@ -46,7 +46,7 @@ core_shown_square core_own_square_at(const core_element_image image, int own_fac
                                        CORE_HAS_TWO_DIMENSIONS ? CORE_NO_FACE : own_face);
     square.corners.all_hit = square.corners.all_hit && least > elvis_real(0);
     square.approach = core_approach_to(square.subpixel, image);
-    square.is_absent = square.is_hidden = square.is_whole_pixel = square.is_oversized = false;
+    square.is_absent = square.is_hidden = square.may_hide_contour = square.is_whole_pixel = square.is_oversized = false;
     square.is_seen = square.corners.all_hit;
     return square;
 }

@@ -34,6 +34,11 @@ struct core_line_search {
     // Squares of the patch that are still to be looked at.
     uint n_squares;
     uint work, n_evaluations;
+#if CORE_STRONGLY_BENT
+    // A cube around the part of the element that the pixel can show (lines/shown_part.glsl); its half side is negative where that is not
+    // known.
+    elvis_real part_x, part_y, part_z, part_half_side;
+#endif
 };
 
 // From the root of the hierarchy on, if there is anything to be looked for.
@@ -41,7 +46,11 @@ core_line_search core_begin_search(elvis_real column, elvis_real row, uint most_
     core_stack[0] = 0u;
     const elvis_real zero = elvis_real(0);
     return core_line_search(lines, core_is_looking(lines), has_nodes ? 1u : 0u, CORE_NO_ITEM, 0, CORE_NO_ITEM, column, row, 0u, 0u,
-                            0u, most_level, zero, zero, zero, 0u, 0u, 0u, 0u);
+                            0u, most_level, zero, zero, zero, 0u, 0u, 0u, 0u
+#if CORE_STRONGLY_BENT
+                            , zero, zero, zero, elvis_real(-1)
+#endif
+    );
 }
 
 bool core_is_unfinished(const core_line_search search) {
@@ -55,4 +64,7 @@ void core_begin_element(inout core_line_search search, elvis_vec3 start) {
     search.z = start.z;
     core_project(search.x, search.y, search.z);
     search.level = search.across = search.down = search.moves = 0u;
+#if CORE_STRONGLY_BENT
+    search.part_half_side = elvis_real(-1);
+#endif
 }

@@ -16,8 +16,8 @@ struct core_shown_square {
     bool is_absent;
     // What is there of it hides the element, or is hidden with it.
     bool is_hidden;
-    // What is met in the square is seen in the pixel.
-    bool is_seen;
+    // What is met in the square is seen in the pixel; but for contours, which another element may hide.
+    bool is_seen, may_hide_contour;
     // The square is the pixel, and an element that fills it hides everything else.
     bool is_whole_pixel;
     // The square is larger than the pixel.
@@ -36,7 +36,8 @@ core_shown_square core_shown_square_at(const core_element_image image, core_cut_
     square.frame = core_frame_at(image.position, image.jacobian, corners.error + image.shift_error);
     square.subpixel = core_subpixel_at(image, square.frame, corners, normal, direction, own_face);
     square.approach = core_approach_to(square.subpixel, image);
-    square.is_absent = square.is_hidden = square.is_whole_pixel = square.is_oversized = square.enters = false;
+    square.is_absent = square.is_hidden = square.may_hide_contour = false;
+    square.is_whole_pixel = square.is_oversized = square.enters = false;
     square.is_seen = corners.all_hit;
     return square;
 }

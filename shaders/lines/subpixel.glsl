@@ -16,6 +16,7 @@
 
 #include "element/element_frame.glsl"
 #include "element/face_frame.glsl"
+#include "element/local_curvature.glsl"
 #include "picture/view.glsl"
 #include "element/inside.glsl"
 #include "arithmetic/model.glsl"
@@ -34,6 +35,12 @@ struct core_element_image {
     elvis_real shift_error;
     // element/prediction.glsl
     elvis_real curvature;
+#if CORE_STRONGLY_BENT
+    // The element may fold back.
+    bool may_fold;
+    // No point of the element that the pixel shows is farther from xi (lines/shown_part.glsl); negative where that is not known.
+    elvis_real farthest;
+#endif
 };
 
 core_element_image core_element_image_at(uint element, elvis_vec3 xi) {
@@ -45,7 +52,22 @@ core_element_image core_element_image_at(uint element, elvis_vec3 xi) {
     image.shift = core_reference.xyz - elvis_origin(element);
     image.shift_error = CORE_ROUNDOFF * max(max(abs(image.shift.x), abs(image.shift.y)), abs(image.shift.z));
     image.curvature = elvis_fetch_core_curvatures(element, 0u);
+#if CORE_STRONGLY_BENT
+    image.may_fold = image.curvature > CORE_MOST_MEASURED_CURVATURE;
+    image.farthest = elvis_real(-1);
+    image.curvature = core_curvature_at(element, core_frame_at(image.position, image.jacobian, elvis_real(0)), image.curvature);
+#endif
     return image;
+}
+
+// How far off predictions are, of points that are predicted within `step`.
+elvis_real core_image_error(const core_element_image image, elvis_real step) {
+#if CORE_STRONGLY_BENT
+    if (image.farthest >= elvis_real(0)) {
+        return core_prediction_error_within(image.curvature, step, image.farthest);
+    }
+#endif
+    return core_prediction_error(image.curvature, step);
 }
 
 struct core_subpixel {
@@ -172,7 +194,7 @@ core_subpixel core_subpixel_at(const core_element_image image, core_frame frame,
     const elvis_vec3 most = max(max(abs(d0), abs(d1)), max(abs(d2), abs(d3)));
     const elvis_real largest_step = max(max(most.x, most.y), most.z);
     const elvis_real rounding = max(max(frame.xi_error.x, frame.xi_error.y), frame.xi_error.z);
-    const elvis_real beyond = core_prediction_error(image.curvature, largest_step) + rounding;
+    const elvis_real beyond = core_image_error(image, largest_step) + rounding;
     subpixel.region = core_region(d0, d1, d2, d3, beyond, largest_step + beyond);
     subpixel.middle = image.xi + elvis_real(0.25LF) * (d0 + d1 + d2 + d3);
     const elvis_vec3 to_middle = abs(subpixel.middle - image.xi);
@@ -195,12 +217,9 @@ struct core_approach {
     bool is_far;
     // The subpixel lies outside although the bound, which says nothing far away from a curved element, does not show it. The prediction's
     // nearest element point is almost the point it was made from, and the subpixel is beyond a face by much more than their distance. Only
-    // an element that folds back could still meet the surface elsewhere, which none of a curvature below CORE_FOLDS_FROM was seen to do.
+    // an element that folds back could still meet the surface elsewhere: some of a curvature of 8 did.
     bool is_clear;
 };
-
-// Some of 80 did.
-#define CORE_FOLDS_FROM elvis_real(16)
 
 core_approach core_approach_to(const core_subpixel subpixel, const core_element_image image) {
     const elvis_real radius = abs(subpixel.region.radius - subpixel.region.beyond - subpixel.step);
@@ -209,8 +228,10 @@ core_approach core_approach_to(const core_subpixel subpixel, const core_element_
     const elvis_real move = max(max(abs(x - image.xi.x), abs(y - image.xi.y)), abs(z - image.xi.z));
     core_approach approach;
     approach.is_far = move > elvis_real(0.25LF) * radius && move > elvis_real(16) * CORE_ROUNDOFF;
-    approach.is_clear = !approach.is_far && image.curvature < CORE_FOLDS_FROM &&
-                        subpixel.clearance > elvis_real(0.5LF) * radius + elvis_real(8) * move;
+    approach.is_clear = !approach.is_far && subpixel.clearance > elvis_real(0.5LF) * radius + elvis_real(8) * move;
+#if CORE_STRONGLY_BENT
+    approach.is_clear = approach.is_clear && !image.may_fold;
+#endif
     return approach;
 }
 

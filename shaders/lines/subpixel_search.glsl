@@ -52,8 +52,12 @@ void core_go_on(core_surface surface, core_shown_square square, core_element_ima
 
 void core_ask(core_surface surface, inout core_line_search search) {
     const bool is_active = search.item != CORE_NO_ITEM;
-    const core_element_image image =
-        core_element_image_at(is_active ? search.item : 0u, elvis_vec3(search.x, search.y, search.z));
+    core_element_image image = core_element_image_at(is_active ? search.item : 0u, elvis_vec3(search.x, search.y, search.z));
+#if CORE_STRONGLY_BENT
+    const elvis_vec3 from_part = image.xi - elvis_vec3(search.part_x, search.part_y, search.part_z);
+    const bool knows_part = search.part_half_side >= elvis_real(0);
+    image.farthest = knows_part ? core_max_norm(from_part) + search.part_half_side : elvis_real(-1);
+#endif
     const core_shown_square square = core_square_on(surface, search, image, core_searched_place(search));
     search.n_evaluations += is_active ? 1u : 0u;
     const bool is_known = square.corners.all_hit;
@@ -65,7 +69,8 @@ void core_ask(core_surface surface, inout core_line_search search) {
     core_line_marks lines = search.lines;
     const bool is_inside = is_known && square.subpixel.is_inside;
     const core_isovalue_test test = core_isovalues_in(image, square.subpixel.region);
-    core_record_lines(lines, is_judged && lines.wants_contour && square.is_seen && is_inside && test.is_met,
+    const bool shows_contour = square.is_seen && !square.may_hide_contour;
+    core_record_lines(lines, is_judged && lines.wants_contour && shows_contour && is_inside && test.is_met,
                       is_judged && lines.wants_mesh && square.is_seen && square.subpixel.is_crossed);
     const bool leaves_contour = is_judged && lines.wants_contour && !(is_known && test.is_excluded);
     const bool leaves_mesh = is_judged && lines.wants_mesh && !is_inside;

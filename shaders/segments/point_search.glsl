@@ -16,6 +16,8 @@
 #ifndef CORE_POINT_SEARCH
 #define CORE_POINT_SEARCH
 
+#include "element/octree_box.glsl"
+
 #define CORE_POINT_OUTSIDE 0u
 #define CORE_POINT_FOUND 1u
 #define CORE_POINT_UNDECIDED 2u
@@ -27,55 +29,29 @@
 // Coordinates of rays are rounded by a share of their bound.
 #define CORE_POINT_SLACK (elvis_real(1) / CORE_ROUNDING_SHARE)
 
-// A cube of reference coordinates: its place among those of its level, in 2^level of each direction.
-struct core_octree_box {
-    uint x, y, z, level;
-    bool is_last;
-};
-
-elvis_real core_half_side(const core_octree_box box) { return exp2(-float(box.level)); }
-
-elvis_vec3 core_middle(const core_octree_box box) {
-    return elvis_vec3(-1) + core_half_side(box) * elvis_vec3(2u * box.x + 1u, 2u * box.y + 1u, 2u * box.z + 1u);
-}
-
-void core_cut_box(inout core_octree_box box) {
-    box.x *= 2u;
-    box.y *= 2u;
-    box.z *= 2u;
-    box.level += 1u;
-}
-
-// To the next one that is not in this one.
-void core_leave_box(inout core_octree_box box) {
-    // As often as all three numbers end in ones, it is the last in the one around it.
-    const uint ones = uint(findLSB(~(box.x & box.y & box.z))), up = min(ones, box.level);
-    box.level -= up;
-    box.is_last = box.level == 0u;
-    const uint x = box.x >> up, y = box.y >> up, z = box.z >> up;
-    const uint next = ((x & 1u) | (y & 1u) << 1u | (z & 1u) << 2u) + 1u;
-    box.x = (x & ~1u) | (next & 1u);
-    box.y = (y & ~1u) | (next >> 1u & 1u);
-    box.z = (z & ~1u) | (next >> 2u & 1u);
-}
-
 struct core_point_search {
     uint status, n_evaluations;
+    // Rests on a curvature that is not known.
+    bool is_estimated;
     // The point, or where the last evaluation predicts it; rounding of its coordinates.
     core_ray_point at;
     elvis_real noise;
 };
 
 core_point_search core_search_point(const core_traced_ray ray, uint element, elvis_real t) {
-    const elvis_real curvature = min(CORE_SEGMENT_CURVATURE(element), CORE_ASSUMED_CURVATURE);
-    core_octree_box box = core_octree_box(0u, 0u, 0u, 0u, false);
+    const elvis_real of_element = CORE_SEGMENT_CURVATURE(element);
+    core_octree_box box = core_whole_box();
     core_point_search search =
-        core_point_search(CORE_POINT_OUTSIDE, 0u, core_ray_point_at(t, CORE_CENTROID, elvis_vec3(0)), elvis_real(0));
+        core_point_search(CORE_POINT_OUTSIDE, 0u, false, core_ray_point_at(t, CORE_CENTROID, elvis_vec3(0)), elvis_real(0));
     elvis_real x = CORE_CENTROID.x, y = CORE_CENTROID.y, z = CORE_CENTROID.z;
     uint steps = 0u;
     while (!box.is_last) {
         const elvis_vec3 xi = elvis_vec3(x, y, z), middle = core_middle(box);
         const core_ray_evaluation here = core_evaluate_ray(ray, element, xi, t);
+        const bool is_proven = core_proven_curvature_at(element, here.frame) < CORE_UNKNOWN_CURVATURE;
+        const elvis_real curvature =
+            core_curvature_at(element, here.frame, is_proven ? of_element : min(of_element, CORE_ASSUMED_CURVATURE));
+        search.is_estimated = search.is_estimated || (!is_proven && of_element > CORE_ASSUMED_CURVATURE);
         const elvis_vec3 at = here.model.at;
         const elvis_real half_side = core_half_side(box), reach = core_max_norm(xi - middle) + half_side;
         const elvis_real size = core_max_norm(here.model.newton_step), noise = CORE_POINT_SLACK * core_max_norm(here.model.noise);

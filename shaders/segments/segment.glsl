@@ -14,7 +14,7 @@
 // core_links.
 
 #include "element/linearization.glsl"
-#include "segments/local_curvature.glsl"
+#include "element/local_curvature.glsl"
 #include "segments/ray_model.glsl"
 #include "segments/ray_point.glsl"
 #include "segments/traced_ray.glsl"
@@ -175,6 +175,15 @@ core_ray_evaluation core_evaluate_ray(const core_traced_ray ray, uint element, e
     return here;
 }
 
+// The curvature of the element is larger than the one that is assumed, or unknown.
+bool core_is_assumed(const core_segment segment) { return segment.curvature >= CORE_ASSUMED_CURVATURE; }
+
+// As it counts for predictions from an evaluation. A search that is estimated does not wait for what is proven.
+elvis_real core_segment_curvature(uint element, const core_frame frame, const core_segment segment) {
+    return segment.is_estimated && !segment.is_followed ? min(core_proven_curvature_at(element, frame), segment.curvature)
+                                                        : core_curvature_at(element, frame, segment.curvature);
+}
+
 // How far a prediction may lead in reference coordinates before another point than the ray's may be nearer: half as far as there is
 // surely no other one (Kantorovich).
 elvis_real core_follow_span(elvis_real curvature) { return elvis_real(0.5LF) / curvature; }
@@ -187,7 +196,7 @@ elvis_real core_sure_span(elvis_real curvature) { return elvis_real(0.33LF) / cu
 // the parameter it may be off.
 bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_segment segment) {
     uint start = 0u, steps = 0u;
-    bool is_found = false;
+    bool is_found = false, is_proven = false;
     elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;
     core_project(x, y, z);
     while (!is_found && start < CORE_ENTER_STARTS) {
@@ -195,15 +204,16 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
         const elvis_vec3 at = here.model.at, slope = here.model.slope;
         const elvis_real noise = core_max_norm(here.model.noise), size = core_max_norm(here.model.newton_step);
         const elvis_real beyond = core_excess(at.x, at.y, at.z);
-        const bool is_there = here.frame.is_sound && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
+        const elvis_real curvature = core_curvature_at(segment.element, here.frame, segment.curvature);
+        const bool is_there = here.frame.is_sound && core_is_near(curvature, size) && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
         const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
-                                                             elvis_real(2) * segment.curvature * size * size);
+                                                             elvis_real(2) * curvature * size * size);
         steps += 1u;
         segment.iterations += 1u;
         is_found = is_there && is_in;
         segment.anchor = core_either(is_found, core_ray_point_at(segment.anchor.t, at, slope), segment.anchor);
-        const elvis_real curvature = core_curvature_at(segment.element, here.frame, segment.curvature);
         segment.anchor_curvature = is_found ? curvature : segment.anchor_curvature;
+        is_proven = core_proven_curvature_at(segment.element, here.frame) < CORE_UNKNOWN_CURVATURE;
         // From the centroid, then from near the corners.
         const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTER_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
@@ -216,6 +226,7 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
     }
     const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
     segment.is_followed = is_found;
+    segment.is_estimated = segment.is_estimated && !(is_found && is_proven);
     segment.is_inside = segment.is_inside || is_found;
     segment.is_assumed = is_found;
     segment.begin = is_found ? segment.anchor.t : segment.begin;
@@ -280,8 +291,7 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     const elvis_vec3 xi = elvis_vec3(x, y, z);
     core_ray_evaluation here = core_evaluate_ray(ray, element, xi, segment.next);
     segment.iterations += 1u;
-    const elvis_real curvature =
-        core_assumed_curvature(core_curvature_at(element, here.frame, segment.curvature), segment.iterations);
+    const elvis_real curvature = core_assumed_curvature(core_segment_curvature(element, here.frame, segment), segment.iterations);
     segment.is_estimated = segment.is_estimated || segment.iterations > CORE_CERTAIN_ITERATIONS * CORE_ITERATIONS_SHARE;
     const elvis_real step = max(core_model_step(here.model, segment.begin), core_model_step(here.model, segment.end));
     const elvis_real bound = core_prediction_error(curvature, step);
@@ -317,6 +327,7 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
                                 bound <= CORE_PREDICTION_SHARE * core_max_norm(here.model.noise);
         core_seek_enter(ray, clip, is_exact, is_blurred, error.parameter, segment);
     }
+    segment.is_estimated = segment.is_estimated || (is_denied && core_is_assumed(segment));
     segment.is_followed = segment.is_followed && !is_denied;
     core_predict_from(here, curvature, ray.tolerance, segment);
 

@@ -89,7 +89,7 @@ void core_take_eye(uint element, const core_point_search found, inout core_eye e
     eye.element = goes_in ? min(eye.element, element) : eye.element;
     eye.n_around += is_around ? 1u : 0u;
     eye.is_undecided = eye.is_undecided || found.status == CORE_POINT_UNDECIDED;
-    eye.is_estimated = eye.is_estimated || (found.status == CORE_POINT_OUTSIDE && CORE_SEGMENT_CURVATURE(element) > CORE_ASSUMED_CURVATURE);
+    eye.is_estimated = eye.is_estimated || (found.status == CORE_POINT_OUTSIDE && found.is_estimated);
     eye.n_evaluations += found.n_evaluations;
     eye.work += found.n_evaluations;
 }

@@ -42,10 +42,10 @@ layout(push_constant) uniform core_parameters {
 #define CORE_GROUPS_BINDING 7
 #include "tiles/listed_group.glsl"
 #include "arithmetic/driver_limit.glsl"
-// Where elements are more curved, segments are estimated.
+// Where elements are more curved, and nothing is proven at a point of them, segments are estimated.
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
-#define CORE_CERTAIN_ITERATIONS 96u
-#define CORE_SEGMENT_ITERATIONS 160u
+#define CORE_CERTAIN_ITERATIONS 320u
+#define CORE_SEGMENT_ITERATIONS 384u
 #include "segments/segment.glsl"
 #include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"

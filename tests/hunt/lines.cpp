@@ -20,6 +20,8 @@ constexpr int most_halvings = 24;
 constexpr int halvings_to_border = 10;
 /** Constraints of faces are of the order of one: this is zero. */
 constexpr double on_border = 1e-7;
+/** To a minimum between three samples, each by a third: to 1e-6 of their distance. */
+constexpr int most_thirds = 34;
 
 } // namespace
 
@@ -133,11 +135,14 @@ bool LineOracle::meets_border(const Sight& a, const Sight& b, int depth) {
     return std::abs(nearer.border) < on_border;
 }
 
+bool LineOracle::is_between(const Sight& a, const Sight& b, const LineSearch& search) {
+    return search.kind == LineKind::contour ? meets_contour(a, b, search.beyond, most_halvings)
+                                            : meets_border(a, b, most_halvings);
+}
+
 bool LineOracle::is_between(const std::vector<Sight>& sights, const LineSearch& search, int n) {
     const auto meets = [&](int i, int j) {
-        const Sight &a = sights[static_cast<std::size_t>(i)], &b = sights[static_cast<std::size_t>(j)];
-        return search.kind == LineKind::contour ? meets_contour(a, b, search.beyond, most_halvings)
-                                                : meets_border(a, b, most_halvings);
+        return is_between(sights[static_cast<std::size_t>(i)], sights[static_cast<std::size_t>(j)], search);
     };
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
@@ -171,6 +176,43 @@ bool LineOracle::is_closer(const PictureSquare& square, Sight start, double half
     return false;
 }
 
+/** Between two places, towards the one that is nearest to a line. */
+bool LineOracle::comes_near(Sight from, Sight to, const LineSearch& search) {
+    for (int turn = 0; turn < most_thirds; ++turn) {
+        const auto at = [&](double share) {
+            return see(from.column + share * (to.column - from.column), from.row + share * (to.row - from.row));
+        };
+        const Sight first = at(1.0 / 3), second = at(2.0 / 3);
+        if (is_between(from, first, search) || is_between(second, to, search) || is_between(first, second, search))
+            return true;
+        (distance(first, search.kind) < distance(second, search.kind) ? to : from) =
+            distance(first, search.kind) < distance(second, search.kind) ? second : first;
+    }
+    return distance(from, search.kind) <= on_border;
+}
+
+bool LineOracle::enters_at_edge(const PictureSquare& square, const LineSearch& search) {
+    const auto count = static_cast<std::size_t>(search.n);
+    for (int edge = 0; edge < 4; ++edge) {
+        std::vector<Sight> along;
+        std::vector<double> distances;
+        for (std::size_t i = 0; i < count; ++i) {
+            const double across = 2.0 * static_cast<double>(i) / static_cast<double>(count - 1) - 1,
+                         side = edge % 2 == 0 ? -1 : 1;
+            along.push_back(see(square.column + square.half * (edge < 2 ? across : side),
+                                square.row + square.half * (edge < 2 ? side : across)));
+            distances.push_back(distance(along.back(), search.kind));
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t before = i > 0 ? i - 1 : i, after = i + 1 < count ? i + 1 : i;
+            const bool is_least = distances[i] <= distances[before] && distances[i] <= distances[after];
+            if (is_least && distances[i] < infinity && comes_near(along[before], along[after], search))
+                return true;
+        }
+    }
+    return false;
+}
+
 bool LineOracle::is_found(const PictureSquare& square, const LineSearch& search) {
     std::vector<Sight> all = sights(square, search.n);
     if (is_between(all, search, search.n))
@@ -178,9 +220,12 @@ bool LineOracle::is_found(const PictureSquare& square, const LineSearch& search)
     constexpr std::size_t n_starts = 4;
     std::ranges::sort(all, {}, [&](const Sight& sight) { return distance(sight, search.kind); });
     all.resize(std::min(all.size(), n_starts));
-    return std::ranges::any_of(all, [&](const Sight& start) {
-        return distance(start, search.kind) < infinity && is_closer(square, start, 2 * square.half / (search.n - 1), search);
-    });
+    return std::ranges::any_of(all,
+                               [&](const Sight& start) {
+                                   return distance(start, search.kind) < infinity &&
+                                          is_closer(square, start, 2 * square.half / (search.n - 1), search);
+                               }) ||
+           (search.kind == LineKind::mesh_line && enters_at_edge(square, search));
 }
 
 } // namespace elvis::hunt

@@ -68,6 +68,10 @@ private:
     /** How far the sample is from a line, in whatever is zero there. */
     double distance(const Sight& sight, LineKind kind) const;
     bool is_closer(const PictureSquare& square, Sight start, double half, const LineSearch& search);
+    bool is_between(const Sight& a, const Sight& b, const LineSearch& search);
+    /** Whether a line comes in at an edge of the square, however little of it: a sliver lies between samples. */
+    bool enters_at_edge(const PictureSquare& square, const LineSearch& search);
+    bool comes_near(Sight from, Sight to, const LineSearch& search);
 
     oracle::SceneOracle& m_oracle;
     const FrameRequest& m_request;

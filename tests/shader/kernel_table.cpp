@@ -22,7 +22,17 @@ const std::vector<std::string> faces{"core_nodes", "core_faces", "core_patches"}
 const std::vector<std::string> fitted_faces{"core_nodes", "core_faces", "core_patches", "core_face_points"};
 const std::vector<std::string> octants{"core_elements", "core_nodes", "core_octants"};
 const std::vector<std::string> chains{"core_nodes", "core_links", "core_elements"};
-const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements"};
+const std::string bends = "core_bends (reals)";
+const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements", bends};
+
+/** For elements that are nearly linear, and for strongly bent ones. */
+void add_for_bends(std::vector<KernelUse>& uses, KernelUse use) {
+    use.choices.push_back(no("CORE_STRONGLY_BENT"));
+    uses.push_back(use);
+    use.choices.back() = yes("CORE_STRONGLY_BENT");
+    use.buffers.push_back(bends);
+    uses.push_back(use);
+}
 
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
     for (const char* kernel :
@@ -94,16 +104,16 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
                     .buffers = bent_elements,
                     .choices = {width, height, no("CORE_LINES"), no_or_yes("CORE_OVERLAPS")},
                     .is_for_solids = true});
-    uses.push_back({.kernel = "cut_surface/cut_plane",
-                    .element = Element::model,
-                    .buffers = elements,
-                    .choices = {width, height, yes("CORE_LINES"), no_or_yes("CORE_OVERLAPS")},
-                    .is_for_solids = true});
-    uses.push_back({.kernel = "lines/cut_lines",
-                    .element = Element::model,
-                    .buffers = elements,
-                    .choices = {width, height, yes("CORE_LINES")},
-                    .is_for_solids = true});
+    add_for_bends(uses, {.kernel = "cut_surface/cut_plane",
+                         .element = Element::model,
+                         .buffers = elements,
+                         .choices = {width, height, yes("CORE_LINES"), no_or_yes("CORE_OVERLAPS")},
+                         .is_for_solids = true});
+    add_for_bends(uses, {.kernel = "lines/cut_lines",
+                         .element = Element::model,
+                         .buffers = elements,
+                         .choices = {width, height, yes("CORE_LINES")},
+                         .is_for_solids = true});
     uses.push_back({.kernel = "cut_surface/surface_tiles", .buffers = elements, .choices = {width, height}});
     uses.push_back({.kernel = "cut_surface/surface_pixels",
                     .element = Element::value,
@@ -146,18 +156,18 @@ void add_face_kernels(std::vector<KernelUse>& uses) {
 
 void add_line_kernels(std::vector<KernelUse>& uses) {
     for (const char* kernel : {"lines/settle_lines", "lines/surface_lines", "lines/face_lines_careful"}) {
-        uses.push_back({.kernel = kernel,
-                        .element = Element::model,
-                        .buffers = faces,
-                        .choices = {width, height, yes("CORE_ON_FACES"), no_or_yes("CORE_WITH_CONTOURS")}});
+        add_for_bends(uses, {.kernel = kernel,
+                             .element = Element::model,
+                             .buffers = faces,
+                             .choices = {width, height, yes("CORE_ON_FACES"), no_or_yes("CORE_WITH_CONTOURS")}});
     }
     const std::vector<Choice> on_surface{width, height, no("CORE_ON_FACES"), no_or_yes("CORE_WITH_CONTOURS")};
-    uses.push_back({.kernel = "lines/settle_lines",
-                    .element = Element::model,
-                    .buffers = elements,
-                    .choices = on_surface,
-                    .is_for_solids = true,
-                    .shows_own_boundary = true});
+    add_for_bends(uses, {.kernel = "lines/settle_lines",
+                         .element = Element::model,
+                         .buffers = elements,
+                         .choices = on_surface,
+                         .is_for_solids = true,
+                         .shows_own_boundary = true});
     // Quadrics have rows, and segments of rays; other surfaces neither.
     for (const bool is_quadric : {false, true}) {
         KernelUse lines{.kernel = "lines/surface_lines",
@@ -171,7 +181,7 @@ void add_line_kernels(std::vector<KernelUse>& uses) {
                               is_quadric ? no_or_yes("CORE_BY_QUADRIC_SPANS") : no("CORE_BY_QUADRIC_SPANS"),
                               no("CORE_HAS_ENDS"),
                               {"CORE_SHAPE_ROWS", {is_quadric ? "8" : "0"}}});
-        uses.push_back(lines);
+        add_for_bends(uses, lines);
     }
 }
 

@@ -145,7 +145,7 @@ ElementBends bends_of(const Polynomial& polynomial, elvis_shape shape, const std
     return bends[0];
 }
 
-/** shaders/segments/local_curvature.glsl. */
+/** shaders/element/local_curvature.glsl. */
 double curvature_at(const Polynomial& polynomial, const ElementBends& bends, const Vector3& xi) {
     const std::array<double, 9> inverse = inverse_of(polynomial.jacobian(xi));
     double largest = 0;

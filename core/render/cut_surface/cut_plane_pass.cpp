@@ -90,6 +90,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         }
         request.defines.emplace_back("CORE_OVERLAPS", data.has_overlaps() ? "1" : "0");
         request.defines.emplace_back("CORE_LINES", m_with_lines ? "1" : "0");
+        request.defines.push_back(data.strongly_bent_define(index));
         request.name = "cut_plane of element class " + std::to_string(index);
         request.kernel = "cut_surface/cut_plane.comp";
         request.bindings = buffer_bindings({.uniform = 1, .storage = 9});

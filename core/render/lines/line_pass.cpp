@@ -116,7 +116,8 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
         if (m_on_own_boundary) {
             request.text += "#include \"element/whole_elements.glsl\"\n";
         }
-        request.defines = {{"CORE_ON_FACES", m_faces ? "1" : "0"},
+        request.defines = {m_data.strongly_bent_define(index),
+                           {"CORE_ON_FACES", m_faces ? "1" : "0"},
                            {"CORE_WITH_CONTOURS", with_contours ? "1" : "0"},
                            {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};

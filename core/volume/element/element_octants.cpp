@@ -35,7 +35,7 @@ KernelRequest kernel_request(const DeviceVolume& data, std::uint32_t element_cla
     request.watches_loops = true;
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
-    request.buffers = {data.curvature_records(element_class)};
+    request.buffers = data.curvature_records(element_class).buffers();
     request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}};
     request.bindings = buffer_bindings({.storage = 3});
     request.push_constant_bytes = sizeof(std::uint32_t);

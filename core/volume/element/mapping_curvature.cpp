@@ -21,8 +21,10 @@ constexpr std::size_t most_nodes = 1000;
 constexpr double close_enough = 1.5;
 /** Parts of an element that are looked at: three levels where only one place is bent. */
 constexpr std::size_t most_parts = 128;
-/** Nothing rests on larger ones (CORE_ASSUMED_CURVATURE of shaders/segments/segment.glsl), and they take long. */
-constexpr double most_curvature = 4;
+/** Larger ones take long, and say little. */
+constexpr double most_curvature = most_measured_curvature;
+/** Of the Jacobian, relative to that at the centroid: an element with a smaller determinant folds. */
+constexpr double folded_determinant = -1e-6;
 /** For the rounding of sums, by far. */
 constexpr double margin = 1 + 1e-6;
 
@@ -282,8 +284,25 @@ void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures, st
             Element::raise_to_norm_of(form, {1, 0, 0, 0, 1, 0, 0, 0, 1}, form.norm);
         }
         std::ranges::sort(element.forms, std::greater{}, &Element::Form::norm);
-        curvatures[lane] = rounded_up(bound_in_parts(element, curvature));
+        // The search for a bound looks for folds itself, where it is made.
+        const bool is_folded = curvature >= most_curvature && folds(element);
+        curvatures[lane] = is_folded ? unknown_curvature : rounded_up(bound_in_parts(element, curvature));
+        bends[lane] = is_folded ? ElementBends{} : bends[lane];
     }
+}
+
+bool CurvatureBounder::folds(const Element& element) const {
+    const std::span<const double> nodes = m_derivatives.nodes();
+    std::vector<double> jacobians(3 * nodes.size());
+    element.mapping(element.number, nodes, {}, jacobians);
+    for (std::size_t at = 0; at < jacobians.size(); at += 9) {
+        Matrix3 jacobian{};
+        std::copy_n(&jacobians[at], 9, jacobian.begin());
+        if (!(determinant(product(element.inverse, jacobian)) > folded_determinant)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 double CurvatureBounder::bound_in_parts(const Element& element, double shown) const {

@@ -16,6 +16,8 @@
  *
  *     1/2 sup over b and |u| = |v| = 1 of |J(a)^-1 D^2x(b)(u, v)| <= 1/2 max_i sum_m |J(a)^-1 J0|_im s_m.
  *
+ * That bounds how far a prediction from a is off, however the element bends elsewhere (shaders/element/local_curvature.glsl).
+ *
  * It is that of the polynomial through positions as they are evaluated. The mapping differs from it by the rounding of
  * positions, which all who compare positions allow for.
  */
@@ -41,7 +43,10 @@ inline constexpr float unknown_curvature = 1e9F;
 /** Rays are followed through elements with larger ones: CORE_FOLLOWED_CURVATURE of shaders/segments/segment.glsl. */
 inline constexpr float followed_curvature = 0.25F;
 
-/** The vectors s_m J0 e_m, one after the other; all zero where nothing is known of them. */
+/** Larger ones are not proven: CORE_MOST_MEASURED_CURVATURE of shaders/element/local_curvature.glsl. */
+inline constexpr float most_measured_curvature = 4.0F;
+
+/** The vectors s_m J0 e_m, one after the other; all zero where nothing is known of them, and of elements that fold. */
 using ElementBends = std::array<float, 9>;
 
 /** Of one shape and order. Any thread may call. */
@@ -61,6 +66,8 @@ private:
     struct Element;
 
     void bound_group(Group& group, std::span<float> curvatures, std::span<ElementBends> bends) const;
+    /** Seen at the nodes of its mapping. */
+    bool folds(const Element& element) const;
     /** `shown`: C_a of some point. */
     double bound_in_parts(const Element& element, double shown) const;
 

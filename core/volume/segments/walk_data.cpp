@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 
 namespace elvis {
 
@@ -36,27 +37,6 @@ bool can_start_in(std::span<const double> box, const ViewStart& start) {
     return std::abs(middle) <= reach + 1e-5 * size;
 }
 
-/** Null if nothing is known. */
-std::unique_ptr<RecordBuffer> write_bends(const Device& device, const DeviceVolume& data, std::uint32_t element_class) {
-    const std::span<const ElementBends> bends = data.bends(element_class);
-    if (bends.empty()) {
-        return nullptr;
-    }
-    auto records = std::make_unique<RecordBuffer>(device, RecordKind::real, data.precision(), bends.size(), 12);
-    std::vector<double> numbers;
-    for (std::size_t first = 0; first < bends.size(); first += block) {
-        const std::span<const ElementBends> some = bends.subspan(first, std::min<std::size_t>(block, bends.size() - first));
-        numbers.clear();
-        for (const ElementBends& of : some) {
-            for (std::size_t m = 0; m < 9; m += 3) {
-                numbers.insert(numbers.end(), {of[m], of[m + 1], of[m + 2], 0.0});
-            }
-        }
-        records->write_reals(first, numbers);
-    }
-    return records;
-}
-
 } // namespace
 
 WalkData::WalkData(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
@@ -74,7 +54,6 @@ WalkData::WalkData(const Device& device, const RuntimeVolume& volume, const Devi
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * info.n_elements - 1, node_size);
         if (has_curved(index)) {
             walk.cones = measure_face_cones(device, volume, data, index);
-            walk.bends = write_bends(device, data, index);
         }
         walk.boxes.resize(6 * info.n_elements);
         for (std::uint64_t first = 0; first < info.n_elements; first += block) {
@@ -193,9 +172,7 @@ std::vector<FetchBuffer> WalkData::host_buffers(std::uint32_t element_class) con
     if (walk.cones) {
         buffers.push_back({"core_cones", walk.cones.get()});
     }
-    if (walk.bends) {
-        buffers.push_back({"core_bends", walk.bends.get()});
-    }
+    std::ranges::copy(m_data.curvature_records(element_class).bends(), std::back_inserter(buffers));
     return buffers;
 }
 

@@ -60,7 +60,7 @@ public:
 
 private:
     struct ClassWalk {
-        std::unique_ptr<RecordBuffer> nodes, links, cones, bends;
+        std::unique_ptr<RecordBuffer> nodes, links, cones;
         std::vector<bool> is_kept, is_open;
         std::uint64_t n_starts = 0;
         bool may_hold_eye = false;

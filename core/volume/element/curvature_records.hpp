@@ -1,0 +1,35 @@
+/**
+ * @file curvature_records.hpp
+ * What kernels read of how far mappings are from linear.
+ */
+#pragma once
+
+#include <core/shader/composer.hpp>
+#include <core/volume/element/element_records.hpp>
+#include <core/vulkan/buffer.hpp>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace elvis {
+
+/** Of one class. Buffers keep their place once they are there, so that kernels stay valid when elements take another shape. */
+class CurvatureRecords {
+public:
+    void write(const Device& device, Precision precision, const ElementCurvatures& curvatures);
+
+    /**
+     * `core_curvatures`: that of each of the class's elements, and 1 if it is proven, else 0; and, if any is bent much,
+     * `core_bends`: ElementBends, each vector with a zero (shaders/element/local_curvature.glsl).
+     */
+    std::vector<FetchBuffer> buffers() const;
+    /** `core_bends` alone, or nothing. */
+    std::vector<FetchBuffer> bends() const;
+    std::uint64_t bytes() const;
+
+private:
+    std::unique_ptr<RecordBuffer> m_curvatures, m_bends;
+};
+
+} // namespace elvis
