@@ -4,11 +4,13 @@
 layout(local_size_x = 32) in;
 
 #include "arithmetic/precision.glsl"
+#include "picture/samples.glsl"
 #include "picture/view.glsl"
 #include "tiles/node_tiles.glsl"
 
 layout(set = 0, binding = 1, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
 layout(set = 0, binding = 2, std430) readonly buffer core_list_block { uint core_list[]; };
+layout(set = 0, binding = 6, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
 layout(push_constant) uniform core_parameters {
     uint core_width;
     uint core_tiles_per_row;
@@ -22,7 +24,11 @@ layout(push_constant) uniform core_parameters {
 };
 
 // Iterations of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
+#if CORE_STRONGLY_BENT
+#define CORE_WORK_LIMIT 1500u
+#else
 #define CORE_WORK_LIMIT 2000u
+#endif
 #define CORE_WITH_CONTOURS 1
 #define CORE_LINE_STACK_SIZE (CORE_STACK_SIZE + CORE_TILE_CAPACITY)
 
@@ -47,14 +53,25 @@ void main() {
     const uint pixel = core_list[is_pixel ? i : core_first];
     const uint column = pixel % core_width, row = pixel / core_width;
     const uint owner = core_marks[pixel].owner;
-    const core_surface surface =
+    core_surface surface =
         core_plane_at(elvis_real(column), elvis_real(row), owner != 0u && (owner & CORE_OWNER_KEY) == 0u, owner == 0u);
     const bool is_seen = is_pixel && !surface.is_absent;
     const core_line_marks wanted =
         core_no_lines_yet(is_seen && core_n_isovalues > 0u, is_seen && core_with_mesh_lines != 0u);
     core_line_search search = core_begin_search(elvis_real(column), elvis_real(row), core_subdivisions, wanted, false);
+#if CORE_STRONGLY_BENT
+    surface.own_number = owner != 0u ? core_samples[pixel].number : CORE_NO_NUMBER;
+    for (uint turn = owner != 0u ? 0u : 1u; turn < 2u; ++turn) {
+        core_begin_turn(turn == 0u, core_stack_tile(column, row), search);
+        core_search_lines(surface, search);
+        if (turn == 1u || core_has_own_filled(search)) {
+            break;
+        }
+    }
+#else
     search.stack_size = core_stack_tile(column, row);
     core_search_lines(surface, search);
+#endif
     // What was found with loops that the driver had ended says nothing.
     const bool has_driver_given_up = core_has_driver_given_up(core_width >> 31);
     core_doubt_lines(has_driver_given_up, search.lines);

@@ -68,7 +68,7 @@ void core_select_element(uint element, core_cut_square corners, elvis_vec3 middl
     core_begin_element(search, start);
 #if CORE_STRONGLY_BENT
     const bool may_fold = elvis_fetch_core_curvatures(element, 0u) > CORE_MOST_MEASURED_CURVATURE;
-    if (may_fold && room > elvis_real(0) && corners.all_hit) {
+    if (may_fold && !search.asks_own && room > elvis_real(0) && corners.all_hit) {
         core_begin_part(element, core_widened(corners, middle, room), normal, search);
     }
 #endif

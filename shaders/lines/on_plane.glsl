@@ -21,6 +21,10 @@ struct core_surface {
     elvis_real volume_end;
     // None of it is seen in the pixel.
     bool is_absent;
+#if CORE_STRONGLY_BENT
+    // Number of the element that the pixel's middle shows.
+    uint own_number;
+#endif
 };
 
 bool core_shows_nothing(core_cut_square corners, core_picture_square place, elvis_real volume_end) {
@@ -39,12 +43,20 @@ core_surface core_plane_at(elvis_real column, elvis_real row, bool hides_behind,
     surface.may_hide_behind = may_hide_behind;
     surface.volume_end = core_volume_end();
     surface.is_absent = core_shows_nothing(surface.corners, place, surface.volume_end);
+#if CORE_STRONGLY_BENT
+    surface.own_number = CORE_NO_NUMBER;
+#endif
     return surface;
 }
 
 void core_select_item(const core_surface surface, uint element, inout core_line_search search) {
     const core_cut_square corners = surface.corners;
     const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
+#if CORE_STRONGLY_BENT
+    if (search.asks_own && elvis_fetch4_core_elements(element, 0u).x != surface.own_number) {
+        return;
+    }
+#endif
     core_select_element(element, corners, middle, core_plane_normal.xyz, elvis_real(1), search);
 }
 
@@ -56,6 +68,11 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     square.is_absent = core_shows_nothing(corners, place, surface.volume_end);
     square.is_hidden = square.subpixel.is_grazed || (square.subpixel.is_behind && surface.hides_behind);
     square.is_seen = square.is_seen && !(square.subpixel.may_be_behind && surface.hides_behind);
+#if CORE_STRONGLY_BENT
+    // In the plane of its face an element may be hidden by one on the other side, and fills nothing.
+    const bool is_in_front = !square.subpixel.is_behind && !square.subpixel.may_be_behind;
+    square.subpixel.is_inside = square.subpixel.is_inside && (is_in_front || !search.asks_own);
+#endif
     square.may_hide_contour = surface.may_hide_behind && (square.subpixel.is_behind || square.subpixel.may_be_behind);
     return square;
 }

@@ -35,6 +35,8 @@ struct core_line_search {
     uint n_squares;
     uint work, n_evaluations;
 #if CORE_STRONGLY_BENT
+    // Only the element that the pixel's middle shows is asked; what was asked so far lies inside of it.
+    bool asks_own, is_filled;
     // A cube around the part of the element that the pixel can show (lines/shown_part.glsl); its half side is negative where that is not
     // known.
     elvis_real part_x, part_y, part_z, part_half_side;
@@ -48,7 +50,7 @@ core_line_search core_begin_search(elvis_real column, elvis_real row, uint most_
     return core_line_search(lines, core_is_looking(lines), has_nodes ? 1u : 0u, CORE_NO_ITEM, 0, CORE_NO_ITEM, column, row, 0u, 0u,
                             0u, most_level, zero, zero, zero, 0u, 0u, 0u, 0u
 #if CORE_STRONGLY_BENT
-                            , zero, zero, zero, elvis_real(-1)
+                            , false, false, zero, zero, zero, elvis_real(-1)
 #endif
     );
 }

@@ -82,6 +82,25 @@ void core_ask(core_surface surface, inout core_line_search search) {
     core_leave_open(lines, leaves_contour && stays_open, leaves_mesh && stays_open);
     lines.is_estimated = lines.is_estimated || (is_judged && test.is_estimated);
     search.lines = lines;
+#if CORE_STRONGLY_BENT
+    search.is_filled = search.is_filled && (!is_active || moves_on || is_divided || (is_judged && is_inside));
+#endif
     search.goes_on = core_is_looking(lines) && !(is_judged && square.is_whole_pixel && is_inside && !leaves_contour);
     core_go_on(surface, square, image, is_active, moves_on, is_divided, search);
 }
+
+#if CORE_STRONGLY_BENT
+// Of strongly bent elements little is known from afar. So the element that the pixel's middle shows is asked by itself first: where it
+// fills the pixel, no other one counts, whatever it would leave open.
+void core_begin_turn(bool asks_own, uint stack_size, inout core_line_search search) {
+    search.asks_own = search.is_filled = asks_own;
+    search.lines.is_contour_open = search.lines.is_mesh_open = false;
+    search.item = CORE_NO_ITEM;
+    search.stack_size = stack_size;
+    search.work = 0u;
+}
+
+bool core_has_own_filled(const core_line_search search) {
+    return search.n_evaluations > 0u && search.is_filled && !core_is_unfinished(search);
+}
+#endif

@@ -44,8 +44,8 @@ layout(push_constant) uniform core_parameters {
 #include "arithmetic/driver_limit.glsl"
 // Where elements are more curved, and nothing is proven at a point of them, segments are estimated.
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
-#define CORE_CERTAIN_ITERATIONS 320u
-#define CORE_SEGMENT_ITERATIONS 384u
+#define CORE_CERTAIN_ITERATIONS 640u
+#define CORE_SEGMENT_ITERATIONS 704u
 #include "segments/segment.glsl"
 #include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"

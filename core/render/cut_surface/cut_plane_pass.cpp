@@ -99,7 +99,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         if (m_with_lines) {
             request.name = "cut_lines of element class " + std::to_string(index);
             request.kernel = "lines/cut_lines.comp";
-            request.bindings = buffer_bindings({.uniform = 1, .storage = 5});
+            request.bindings = buffer_bindings({.uniform = 1, .storage = 6});
             request.push_constant_bytes = sizeof(LinesParameters);
             kernels.lines = std::make_unique<ComposedKernel>(m_device, request);
         }
@@ -213,8 +213,8 @@ void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent&
                     std::as_bytes(std::span(&list, 1)), n_pixels);
     const std::uint32_t n_listed = n_listed_buffer.read_items<std::uint32_t>(1)[0];
     counts.refined_pixels += n_listed;
-    const std::array<const Buffer*, 6> bindings = {&m_frame,  &*kernels.tile_nodes, &*m_list,
-                                                   &m_counts, &layer.marks,         &*m_isovalues};
+    const std::array<const Buffer*, 7> bindings = {&m_frame,     &*kernels.tile_nodes, &*m_list,      &m_counts,
+                                                   &layer.marks, &*m_isovalues,        &layer.samples};
     in_batches(n_listed, items_a_dispatch(m_device, listed_a_dispatch, lines_group_size),
                [&](std::uint32_t first, std::uint32_t count) {
                    const LinesParameters parameters{layer.width,
