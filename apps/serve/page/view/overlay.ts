@@ -1,36 +1,26 @@
 // What lies over the picture: handles of the selected item, and marked points.
-import {movable, setAttributes, shape} from "./controls.js";
-
-/** @typedef {{name: string, help: string, at: number[] | null, tied_to: number[] | null, way: number[] | null}} Handle */
+import {movable, setAttributes, shape} from "../controls.js";
+import type {Handle, Message, OverlayPlaces, Place, Size} from "../messages.js";
 
 export class Overlay {
-  /**
-   * @param {SVGSVGElement} svg @param {{tell: (message: Record<string, any>) => void, release: () => void}} does
-   * @param {(x: number, y: number) => number[]} place a place of the page in pixels of the picture
-   */
-  constructor(svg, does, place) {
-    this.svg = svg;
-    this.does = does;
-    this.place = place;
-    /** @type {Handle[]} */
-    this.handles = [];
-    this.grips = shape("g");
-    this.ties = shape("g");
-    this.marks = shape("g");
+  private handles: Handle[] = [];
+  private readonly grips = shape("g");
+  private readonly ties = shape("g");
+  private readonly marks = shape("g");
+  private names = "";
+  version = 0;
+  /** What is moved, from where to where in the picture. */
+  private held: {index: number; from: number[]; to: number[]} | null = null;
+  private isWaiting = false;
+
+  /** `place`: of a place of the page, in pixels of the picture. */
+  constructor(private readonly svg: SVGSVGElement, private readonly does: {tell: (message: Message) => void; release: () => void},
+              private readonly place: (x: number, y: number) => Place) {
     svg.append(this.marks, this.ties, this.grips);
-    this.names = "";
-    this.version = 0;
-    /** @type {{index: number, from: number[], to: number[]} | null} what is moved, from where to where in the picture */
-    this.held = null;
-    this.isWaiting = false;
   }
 
-  /**
-   * Places of an older selection are dropped.
-   * @param {{version: number, handles: Handle[], points: (number[] | null)[]}} overlay places in the picture
-   * @param {number[]} size of the picture @param {number} pixels of the picture in one of the page
-   */
-  show(overlay, size, pixels) {
+  /** Of a picture of that size, of which so many pixels are one of the page. Places of an older selection are dropped. */
+  show(overlay: OverlayPlaces, size: Size, pixels: number) {
     if (overlay.version < this.version) {
       return;
     }
@@ -47,29 +37,22 @@ export class Overlay {
       const [x, y] = handle.at ?? [0, 0];
       setAttributes(this.grips.children[index], {cx: x, cy: y, r: 9 * pixels, visibility: handle.at ? "visible" : "hidden"});
     });
-    const ties = this.handles.filter((handle) => handle.at && handle.tied_to);
-    this.ties.replaceChildren(...ties.flatMap((handle) => ["under", "over"].map((name) => {
-      const [from, to] = [handle.tied_to ?? [0, 0], handle.at ?? [0, 0]];
-      return shape("line", {class: `tie ${name}`, x1: from[0], y1: from[1], x2: to[0], y2: to[1]});
-    })));
+    this.ties.replaceChildren(...this.handles.flatMap(({at, tied_to}) => (at && tied_to ? lines("tie", tied_to, at) : [])));
     this.showPoints(overlay.points, pixels);
   }
 
-  /** @param {(number[] | null)[]} points @param {number} pixels */
-  showPoints(points, pixels) {
+  private showPoints(points: (Place | null)[], pixels: number) {
     const [from, to] = points;
-    const line = from && to ? ["under", "over"].map((name) => shape("line", {class: `probe ${name}`, x1: from[0], y1: from[1], x2: to[0], y2: to[1]})) : [];
     const dots = points.flatMap((at) => (at ? [shape("circle", {class: "mark", cx: at[0], cy: at[1], r: 5 * pixels})] : []));
-    this.marks.replaceChildren(...line, ...dots);
+    this.marks.replaceChildren(...(from && to ? lines("probe", from, to) : []), ...dots);
   }
 
-  /** @param {number} index */
-  grip(index) {
+  private grip(index: number): SVGCircleElement {
     const handle = () => this.handles[index];
     const grip = shape("circle", {class: "grip", tabindex: 0, role: "button", "aria-roledescription": "handle",
       "aria-label": handle().help.replace("Drag: ", "Arrow keys "), "data-name": handle().name});
     grip.append(shape("title", {}, [handle().help]));
-    const hold = (/** @type {number[]} */ from) => { this.held ??= {index, from, to: [...from]}; };
+    const hold = (from: number[]) => { this.held ??= {index, from, to: [...from]}; };
     movable(grip, {
       start: (event) => { this.held = null; hold(this.place(event.clientX, event.clientY)); },
       drag: (event) => this.move(this.place(event.clientX, event.clientY)),
@@ -93,11 +76,8 @@ export class Overlay {
     return grip;
   }
 
-  /**
-   * Not more often than the page is drawn.
-   * @param {number[]} to
-   */
-  move(to) {
+  /** Not more often than the page is drawn. */
+  private move(to: number[]) {
     if (this.held) {
       this.held.to = to;
       if (!this.isWaiting) {
@@ -107,7 +87,7 @@ export class Overlay {
     }
   }
 
-  flush() {
+  private flush() {
     if (this.isWaiting && this.held) {
       const {index, from, to} = this.held;
       this.does.tell({type: "drag", handle: index, from, to, time: performance.now()});
@@ -115,3 +95,7 @@ export class Overlay {
     this.isWaiting = false;
   }
 }
+
+/** With a dark one below, to be seen on any ground. */
+const lines = (kind: string, from: Place, to: Place) =>
+  ["under", "over"].map((name) => shape("line", {class: `${kind} ${name}`, x1: from[0], y1: from[1], x2: to[0], y2: to[1]}));

@@ -1,17 +1,16 @@
 // The colours of a map with the field's histogram above them, and the range as two grips.
-import {button, buttons, element, hexOf, movable, setAttributes, shape} from "./controls.js";
-import {scale, short} from "./axis.js";
+import {scale, short} from "../axis.js";
+import type {Context} from "./context.js";
+import {button, buttons, element, hexOf, movable, setAttributes, shape} from "../controls.js";
+import type {Histogram} from "../messages.js";
+import type {ColorMap} from "../scene.js";
 
-/** @typedef {Record<string, any>} Json */
-/** @typedef {import("./editor.js").Context} Context */
+type Ends = [number, number];
 
 const width = 264, above = 46, bar = 16, height = above + bar + 2;
 
-/**
- * Bars of a histogram. The square root lets rare values be seen, too.
- * @param {import("./histograms.js").Histogram} known @param {(value: number) => number} x @param {number} base @param {number} most
- */
-export function bars(known, x, base, most) {
+/** Bars of a histogram, at most so tall. The square root lets rare values be seen, too. */
+export function bars(known: Histogram, x: (value: number) => number, base: number, most: number): Element[] {
   const step = (known.upper - known.lower) / known.bins.length;
   return known.bins.map((part, i) => {
     const [from, to] = [x(known.lower + i * step), x(known.lower + (i + 1) * step)];
@@ -20,24 +19,19 @@ export function bars(known, x, base, most) {
   });
 }
 
-/**
- * @param {string} place of the map @param {Json} map @param {string} field @param {Context} context
- */
-export function colorScale(place, map, field, context) {
+/** `place`: of the map. */
+export function colorScale(place: string, map: ColorMap, field: string, context: Context): Element[] {
   const isLogarithmic = map.scale === "logarithmic";
   const drawing = shape("svg", {viewBox: `0 0 ${width} ${height}`, class: "scale"});
   // Grips stay where they are: what is taken out loses the focus.
   const back = shape("g");
   const ends = element("p", {className: "ends"});
   const choices = buttons();
-  /** @type {[number, number] | null} */
-  let range = map.range ?? null;
-  /** @type {number[][]} */
-  let colors = [];
+  let range: Ends | null = map.range ?? null;
+  let colors: number[][] = [];
   context.histograms.palette(map).then((points) => { colors = points; draw(); });
 
-  /** @param {[number, number]} wanted @param {boolean} isDone */
-  const set = (wanted, isDone) => {
+  const set = (wanted: Ends, isDone: boolean) => {
     if (wanted[0] < wanted[1] && (wanted[0] > 0 || !isLogarithmic)) {
       range = wanted;
       context.set(`${place}/range`, wanted, "range", isDone);
@@ -46,10 +40,10 @@ export function colorScale(place, map, field, context) {
   };
   const grips = ["Lower", "Upper"].map((name, end) => {
     const grip = shape("path", {class: "end", tabindex: 0, role: "slider", "aria-label": `${name} end of the colours`});
-    const move = (/** @type {(now: number) => number} */ to, /** @type {boolean} */ isDone) => {
+    const move = (to: (now: number) => number, isDone: boolean) => {
       const now = shownRange();
       if (now) {
-        const wanted = /** @type {[number, number]} */ ([...now]);
+        const wanted: Ends = [...now];
         wanted[end] = to(now[end]);
         set(wanted, isDone);
       }
@@ -62,17 +56,15 @@ export function colorScale(place, map, field, context) {
     return grip;
   });
   const known = () => context.histograms.of(field, context.scene, draw);
-  /** @returns {[number, number] | null} */
-  const shownRange = () => {
+  const shownRange = (): Ends | null => {
     const data = known();
     return range ?? (data ? [data.lower, data.upper] : null);
   };
   /** What is drawn stays while a grip is held. */
-  /** @type {[number, number] | null} */
-  let domain = null;
+  let domain: Ends | null = null;
   const axis = () => scale(domain ?? [0, 1], isLogarithmic);
-  const x = (/** @type {number} */ value) => width * Math.min(1, Math.max(0, axis().place(value)));
-  const placeOf = (/** @type {PointerEvent} */ event) => {
+  const x = (value: number) => width * Math.min(1, Math.max(0, axis().place(value)));
+  const placeOf = (event: PointerEvent) => {
     const box = drawing.getBoundingClientRect();
     return Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
   };
@@ -84,35 +76,37 @@ export function colorScale(place, map, field, context) {
     }
     const low = Math.min(shown[0], data?.lower ?? shown[0]), high = Math.max(shown[1], data?.upper ?? shown[1]);
     domain ??= isLogarithmic && !(low > 0) ? shown : [low, high];
-    const [from, to] = shown.map(x);
     const scaled = scale(shown, isLogarithmic);
     back.replaceChildren(
       ...(data && data.upper > data.lower ? bars(data, x, above, above) : []),
       shape("rect", {class: "outside", x: 0, y: above, width, height: bar}),
       ...gradient(colors, (at) => x(scaled.value(at))));
-    [from, to].forEach((at, i) => {
+    shown.map(x).forEach((at, i) => {
       setAttributes(grips[i], {d: `M${at} 0V${height}M${at - 4} ${height}H${at + 4}V${above}H${at - 4}Z`, "aria-valuenow": shown[i],
         "aria-valuemin": low, "aria-valuemax": high, "aria-valuetext": short(shown[i])});
     });
     ends.textContent = data ? `${field}: ${short(data.lower)} to ${short(data.upper)}` : "";
+    choices.replaceChildren(...rangeButtons(data));
+  }
+
+  function rangeButtons(data: Histogram | null): Element[] {
     const quantiles = data?.quantiles;
     const most = data ? Math.max(Math.abs(data.lower), Math.abs(data.upper)) : 0;
-    choices.replaceChildren(
+    return [
       button("Auto", () => context.set(`${place}/range`, null, "range"), {disabled: range === null, title: "The field's range at each time step"}),
       button("±", () => set([-most, most], true), {disabled: isLogarithmic || !(most > 0), title: "Symmetric", "aria-label": "Symmetric range"}),
-      button("2-98 %", () => quantiles && set([quantiles[0], quantiles[3]], true), {disabled: !quantiles, title: "Without the lowest and the highest hundredths of the volume"}),
-      button("10-90 %", () => quantiles && set([quantiles[1], quantiles[2]], true), {disabled: !quantiles}));
+      button("2-98 %", () => { if (quantiles) { set([quantiles[0], quantiles[3]], true); } },
+        {disabled: !quantiles, title: "Without the lowest and the highest hundredths of the volume"}),
+      button("10-90 %", () => { if (quantiles) { set([quantiles[1], quantiles[2]], true); } }, {disabled: !quantiles}),
+    ];
   }
   drawing.append(back, ...grips);
   draw();
   return [drawing, ends, choices];
 }
 
-/**
- * Even colours between points; SVG's own gradients would need names.
- * @param {number[][]} points @param {(position: number) => number} x
- */
-function gradient(points, x) {
+/** Even colours between points; SVG's own gradients would need names. */
+function gradient(points: number[][], x: (position: number) => number): Element[] {
   const n = 64;
   let at = 0;
   return points.length === 0 ? [] : Array.from({length: n}, (_, i) => {

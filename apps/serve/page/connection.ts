@@ -1,11 +1,10 @@
 // The line to the server: messages as JSON, answers by number, frames as bytes, and coming back after a loss.
-
-/** @typedef {Record<string, any>} Message */
+import type {Answer, Answered, Frame, Kind, Message, Messages, Told} from "./messages.js";
 
 const retryMilliseconds = [300, 1000, 2000, 4000];
 
 /** What the address names comes first. Frames in pages of others may have no storage. */
-function sessionName() {
+function sessionName(): string {
   try {
     return new URLSearchParams(location.search).get("session") ?? sessionStorage.getItem("elvis-session") ?? "";
   } catch {
@@ -13,8 +12,7 @@ function sessionName() {
   }
 }
 
-/** @param {string} name */
-function keepSession(name) {
+function keepSession(name: string) {
   try {
     sessionStorage.setItem("elvis-session", name);
   } catch {
@@ -22,19 +20,19 @@ function keepSession(name) {
   }
 }
 
+export type Listener = {message: (told: Told) => void; frame: (frame: Frame, bytes: Uint8Array) => void; line: (text: string) => void};
+/** `done` gets what the answer holds, with the bytes behind it; its asker knows what that is. */
+type Waiting = {done: (answer: unknown) => void; failed: (error: Error) => void};
+
 export class Connection {
-  /** @param {{message: (m: Message) => void, bytes: (facts: Message, bytes: Uint8Array) => void, line: (text: string) => void}} listener */
-  constructor(listener) {
-    this.listener = listener;
-    this.token = new URLSearchParams(location.search).get("token") ?? "";
-    /** @type {Map<number, {done: (m: Message) => void, failed: (e: Error) => void}>} */
-    this.waiting = new Map();
-    this.number = 0;
-    this.failures = 0;
-    this.ended = false;
-    /** @type {WebSocket | null} */
-    this.socket = null;
-  }
+  private readonly token = new URLSearchParams(location.search).get("token") ?? "";
+  private readonly waiting = new Map<number, Waiting>();
+  private number = 0;
+  private failures = 0;
+  private ended = false;
+  socket: WebSocket | null = null;
+
+  constructor(private readonly listener: Listener) {}
 
   open() {
     // Relative to the page, so that it does not matter where a proxy has put it.
@@ -44,50 +42,55 @@ export class Connection {
     const socket = new WebSocket(url);
     this.socket = socket;
     socket.binaryType = "arraybuffer";
-    socket.onmessage = (event) => this.receive(event.data);
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => this.receive(event.data);
     socket.onclose = () => this.closed(socket);
   }
 
-  /** @param {string | ArrayBuffer} data */
-  receive(data) {
+  private receive(data: string | ArrayBuffer) {
     this.failures = 0;
     if (typeof data === "string") {
-      this.dispatch(JSON.parse(data), null);
+      this.dispatch(JSON.parse(data) as Told | Answered, null);
       return;
     }
     const length = new DataView(data).getUint32(0, true);
-    const facts = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length)));
+    const facts = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, length))) as Frame | Answered;
     this.dispatch(facts, new Uint8Array(data, 4 + length));
   }
 
-  /** @param {Message} message @param {Uint8Array | null} bytes */
-  dispatch(message, bytes) {
-    const asked = message.id === undefined || message.id === null ? undefined : this.waiting.get(message.id);
+  private dispatch(told: Told | Answered, bytes: Uint8Array | null) {
+    const asked = "id" in told && typeof told.id === "number" ? this.takeWaiting(told.id) : undefined;
     if (asked) {
-      this.waiting.delete(message.id);
-      if (message.type === "error") {
-        asked.failed(new Error(message.text));
+      if (told.type === "error") {
+        asked.failed(new Error(told.text));
       } else {
-        asked.done({...message, bytes});
+        asked.done({...told, bytes});
       }
       return;
     }
-    if (message.type === "hello") {
-      keepSession(message.session);
+    if (told.type === "answer") {
+      return; // Nobody waits for it.
+    }
+    if (told.type === "hello") {
+      keepSession(told.session);
       this.listener.line("");
-    } else if (message.type === "taken") {
+    } else if (told.type === "taken") {
       this.ended = true;
       this.socket?.close();
     }
-    if (bytes) {
-      this.listener.bytes(message, bytes);
+    if (told.type === "frame") {
+      this.listener.frame(told, bytes ?? new Uint8Array());
     } else {
-      this.listener.message(message);
+      this.listener.message(told);
     }
   }
 
-  /** @param {WebSocket} socket */
-  closed(socket) {
+  private takeWaiting(id: number): Waiting | undefined {
+    const asked = this.waiting.get(id);
+    this.waiting.delete(id);
+    return asked;
+  }
+
+  private closed(socket: WebSocket) {
     if (socket !== this.socket) {
       return;
     }
@@ -105,26 +108,26 @@ export class Connection {
     setTimeout(() => this.open(), wait);
   }
 
-  /**
-   * Without an answer.
-   * @param {Message} message
-   */
-  tell(message) {
+  /** Without an answer. */
+  tell(message: Message) {
+    this.send(message);
+  }
+
+  private send(message: {type: Kind; id?: number}) {
     if (this.socket?.readyState === WebSocket.OPEN) {
       this.socket.send(JSON.stringify(message));
     }
   }
 
-  /** @param {Message} message @returns {Promise<Message>} */
-  ask(message) {
+  ask<K extends Kind>(message: {type: K} & Messages[K][0]): Promise<Answer<K>> {
     return new Promise((done, failed) => {
       if (this.socket?.readyState !== WebSocket.OPEN) {
         failed(new Error("there is no connection"));
         return;
       }
       const id = ++this.number;
-      this.waiting.set(id, {done, failed});
-      this.tell({...message, id});
+      this.waiting.set(id, {done: (answer) => done(answer as Answer<K>), failed});
+      this.send({...message, id});
     });
   }
 }

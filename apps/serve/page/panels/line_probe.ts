@@ -1,35 +1,37 @@
 // Values along a line: its ends by two clicks or as numbers, the plot, and the values as text.
-import {button, buttons, element, numbers, row, text} from "./controls.js";
+import type {Context} from "../editor/context.js";
+import {button, buttons, element, numbers, row, text} from "../controls.js";
+import type {AskOrSay, Line, Picked} from "../messages.js";
 import {plot} from "./plot.js";
-import {sceneText} from "./scene_text.js";
+import type {Scene} from "../scene.js";
+import {sceneText} from "../editor/scene_text.js";
 
-/** @typedef {Record<string, any>} Json */
+export type Does = {
+  ask: AskOrSay; say: (text: string) => void; mark: (points: number[][]) => void;
+  download: (name: string, content: string, type: string) => void; check: Context["check"];
+};
 
 export class LineProbe {
-  /**
-   * @param {HTMLElement} parent
-   * @param {{ask: (message: Json) => Promise<Json | null>, say: (text: string) => void, mark: (points: number[][]) => void,
-   *          download: (name: string, content: string, type: string) => void, check: (pointer: string, value: any) => Promise<any>}} does
-   */
-  constructor(parent, does) {
-    this.does = does;
-    /** @type {(number[] | null)[]} */
-    this.ends = [null, null];
-    this.field = "";
-    this.csv = "";
-    /** @type {number | null} the end that the next pick sets */
-    this.next = null;
-    this.isAsking = false;
-    this.isOutdated = false;
-    /** @type {any} what the values depend on, beside the line */
-    this.scene = null;
-    this.choose = button("Click two points", () => this.setNext(this.next === null ? 0 : null), {"aria-pressed": "false"});
-    this.inputs = ["First point of the line: x, y, z", "Last point of the line: x, y, z"].map((label, i) =>
-      text(label, "", (words) => this.typed(i, words)));
-    const field = sceneText({place: "/field", caption: "Field", label: "Field along the line",
-      check: (words) => does.check("/field", words), put: (words) => { this.field = words ?? ""; this.sample(); }}, "", (words) => words || null, "fields");
-    this.input = field.input;
-    this.shown = element("div", {id: "line-plot"});
+  private ends: (number[] | null)[] = [null, null];
+  private field = "";
+  private csv = "";
+  /** The end that the next pick sets. */
+  private next: number | null = null;
+  private isAsking = false;
+  private isOutdated = false;
+  /** What the values depend on, beside the line. */
+  private scene = "";
+  private readonly choose = button("Click two points", () => this.setNext(this.next === null ? 0 : null), {"aria-pressed": "false"});
+  private readonly inputs = ["First point of the line: x, y, z", "Last point of the line: x, y, z"].map((label, i) =>
+    text(label, "", (words) => this.typed(i, words)));
+  private readonly fieldInput: HTMLInputElement;
+  private readonly shown = element("div", {id: "line-plot"});
+  private readonly files: HTMLElement;
+
+  constructor(parent: HTMLElement, private readonly does: Does) {
+    const field = sceneText({place: "/field", caption: "Field", label: "Field along the line", check: (words) => does.check("/field", words),
+      put: (words) => { this.field = String(words ?? ""); this.sample(); }}, "", (words) => words || null, "fields");
+    this.fieldInput = field.input;
     this.files = buttons(button("Copy values", () => this.copy()),
       button("Save values", () => does.download("line.csv", this.csv, "text/csv")));
     this.files.hidden = true;
@@ -37,15 +39,14 @@ export class LineProbe {
       ...field.rows, this.shown, this.files);
   }
 
-  /** @param {number | null} next */
-  setNext(next) {
+  private setNext(next: number | null) {
     this.next = next;
     this.choose.setAttribute("aria-pressed", String(next !== null));
     this.choose.textContent = next === null ? "Click two points" : next === 0 ? "Click the first point" : "Click the last point";
   }
 
-  /** @param {Json} picked whether it was for the line */
-  take(picked) {
+  /** Whether what was picked was for the line. */
+  take(picked: Picked): boolean {
     if (this.next === null) {
       return false;
     }
@@ -61,8 +62,7 @@ export class LineProbe {
     return true;
   }
 
-  /** @param {number} end @param {string} words */
-  typed(end, words) {
+  private typed(end: number, words: string) {
     const all = numbers(words);
     this.ends[end] = all?.length === 3 ? all : null;
     if (words !== "" && !this.ends[end]) {
@@ -72,16 +72,13 @@ export class LineProbe {
     this.sample();
   }
 
-  showEnds() {
+  private showEnds() {
     this.ends.forEach((end, i) => { this.inputs[i].value = end ? end.map((x) => Number(x.toPrecision(9))).join(", ") : ""; });
     this.mark(null);
   }
 
-  /**
-   * The ends in the picture, and the place of the cursor.
-   * @param {number | null} share
-   */
-  mark(share) {
+  /** The ends in the picture, and the place of the cursor, a share of the line. */
+  mark(share: number | null) {
     const [from, to] = this.ends;
     const points = this.ends.flatMap((end) => (end ? [end] : []));
     if (from && to && share !== null) {
@@ -90,7 +87,7 @@ export class LineProbe {
     this.does.mark(points);
   }
 
-  clear() {
+  private clear() {
     this.ends = [null, null];
     this.csv = "";
     this.files.hidden = true;
@@ -99,12 +96,9 @@ export class LineProbe {
     this.showEnds();
   }
 
-  /**
-   * Where the values change with the scene, they are asked for again.
-   * @param {Json} scene @param {string} field the scene's
-   */
-  follow(scene, field) {
-    this.input.placeholder = field;
+  /** Where the values change with the scene, they are asked for again. `field`: the scene's. */
+  follow(scene: Scene, field: string) {
+    this.fieldInput.placeholder = field;
     const now = JSON.stringify([field, scene.volume?.time_step, scene.warp]);
     if (now !== this.scene) {
       this.scene = now;
@@ -112,7 +106,7 @@ export class LineProbe {
     }
   }
 
-  async sample() {
+  private async sample() {
     const [from, to] = this.ends;
     if (!from || !to) {
       return;
@@ -132,23 +126,20 @@ export class LineProbe {
     }
   }
 
-  /** @param {Json} line */
-  show(line) {
+  private show(line: Line) {
     this.csv = line.csv;
     this.files.hidden = false;
     const words = line.no_breaks_because ? `where elements begin and end is not known: ${line.no_breaks_because}`
       : `elements begin or end at ${line.breaks.length} places` + (line.n_outside ? `; ${line.n_outside} points lie in no element` : "");
-    this.shown.replaceChildren(
-      plot(/** @type {any} */ (line), (at) => this.mark(at === null ? null : at / line.length)),
-      element("p", {className: "quiet"}, [words]));
+    this.shown.replaceChildren(plot(line, (at) => this.mark(at === null ? null : at / line.length)), element("p", {className: "quiet"}, [words]));
   }
 
-  async copy() {
+  private async copy() {
     try {
       await navigator.clipboard.writeText(this.csv);
     } catch {
       // Frames and plain HTTP may not have the clipboard: by a selection.
-      const area = /** @type {HTMLTextAreaElement} */ (element("textarea", {value: this.csv, readOnly: true, "aria-label": "Values"}));
+      const area = element("textarea", {value: this.csv, readOnly: true, "aria-label": "Values"});
       document.body.append(area);
       area.select();
       const isCopied = document.execCommand("copy");

@@ -1,22 +1,23 @@
 // A colour map: its name, file or points, its colours with the field's histogram, its range, and colours beside it.
-import {choice, number, placed, row} from "./controls.js";
 import {colorScale} from "./color_scale.js";
+import type {Context} from "./context.js";
+import {choice, number, placed, row} from "../controls.js";
+import type {Entry} from "./entry.js";
+import type {ColorMap} from "../scene.js";
+import {objectNode} from "./schema.js";
 import {keysBut, objectRows} from "./schema_rows.js";
-
-/** @typedef {Record<string, any>} Json */
 
 const own = "own points", ofFile = "file";
 /** Of a map that is taken as points to begin with. */
 const nFirstPoints = 5;
 
-/** @param {import("./schema_rows.js").Entry} entry */
-export function colorMapRows({place, label, node, value, part, put, context}) {
-  /** @type {Json} */
-  const map = value ?? {};
-  const {name, points, file, space, ...rest} = map;
+export function colorMapRows({place, label, node, value, part, put, context}: Entry): Element[] {
+  const map = (value ?? {}) as ColorMap;
+  const {name, points, file, space: _space, ...rest} = map;
+  const keys = objectNode(node);
   const kind = points ? own : file ? ofFile : name ?? "";
-  const field = part.color_field ?? part.field ?? context.sceneField;
-  const choose = row("colours", choice("Colour map", ["", ...node.properties.name.enum, own], kind, async (word) => {
+  const field = String(part.color_field ?? part.field ?? context.sceneField);
+  const choose = row("colours", choice("Colour map", ["", ...(keys.properties.name.enum ?? []), own], kind, async (word) => {
     if (word === own) {
       const shown = await context.histograms.palette(value ? map : context.scene.color_map ?? {});
       put({...rest, points: evenly(shown)});
@@ -29,16 +30,13 @@ export function colorMapRows({place, label, node, value, part, put, context}) {
     choose,
     ...colorScale(place, map, field, context),
     placed(`${place}/range`, row("range", ...rangeInputs(place, map, context))),
-    ...objectRows(place, map, node, context, points ? ["points", "space"] : ["file"], `${label} `),
-    ...objectRows(place, map, node, context, keysBut(node, "name", "points", "file", "space", "range"), `${label} `),
+    ...objectRows(place, map, keys, context, points ? ["points", "space"] : ["file"], `${label} `),
+    ...objectRows(place, map, keys, context, keysBut(keys, "name", "points", "file", "space", "range"), `${label} `),
   ];
 }
 
-/**
- * Points at equal distances.
- * @param {number[][]} palette
- */
-function evenly(palette) {
+/** Points at equal distances. */
+function evenly(palette: number[][]): number[][] {
   return Array.from({length: nFirstPoints}, (_, i) => {
     const at = i / (nFirstPoints - 1);
     const behind = Math.max(1, palette.findIndex((point) => point[0] >= at));
@@ -48,11 +46,8 @@ function evenly(palette) {
   });
 }
 
-/**
- * Both ends, or none.
- * @param {string} place @param {Json} map @param {import("./editor.js").Context} context
- */
-function rangeInputs(place, map, {set}) {
+/** Both ends, or none. */
+function rangeInputs(place: string, map: ColorMap, {set}: Context): HTMLInputElement[] {
   const change = () => {
     const [low, high] = inputs.map((input) => (input.value === "" ? null : Number(input.value)));
     if ((low === null) === (high === null)) {

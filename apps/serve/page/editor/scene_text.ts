@@ -1,22 +1,19 @@
 // Texts of the scene. What is wrong with one is told below it while it is typed; it stays there until it is right.
-import {element, row, text} from "./controls.js";
+import {element, row, text} from "../controls.js";
+import type {Entry} from "./entry.js";
+import type {Json} from "../scene.js";
 
-/** @typedef {Pick<import("./schema_rows.js").Entry, "place" | "caption" | "label" | "put" | "check">} Entry */
-
-/**
- * What was typed and the scene has not taken, and what it said when that began.
- * @type {Map<string, {words: string, was: string}>}
- */
-const drafts = new Map();
+/** What was typed and the scene has not taken, and what it said when that began. */
+const drafts = new Map<string, {words: string; was: string}>();
 /** So long nothing is typed before it is looked at. */
 const pauseMilliseconds = 250;
 
 /**
- * @param {Entry} entry @param {string} was what the scene says
- * @param {(words: string) => any} valueOf what it is in the scene; raises what is wrong with it
- * @param {string} [list] of what may be chosen
+ * `was`: what the scene says; `valueOf`: what words are in the scene, it raises what is wrong with them; `list`: of what may be
+ * chosen.
  */
-export function sceneText({place, caption, label, put, check}, was, valueOf, list) {
+export function sceneText({place, caption, label, put, check}: Pick<Entry, "place" | "caption" | "label" | "put" | "check">, was: string,
+                          valueOf: (words: string) => Json, list?: string): {input: HTMLInputElement; rows: Element[]} {
   const key = `${place} ${label}`;
   const known = drafts.get(key);
   if (known && known.was !== was) {
@@ -27,22 +24,21 @@ export function sceneText({place, caption, label, put, check}, was, valueOf, lis
   input.setAttribute("aria-describedby", told.id);
   let timer = 0, n = 0;
 
-  /** @param {string} wrong */
-  function tell(wrong) {
+  function tell(wrong: string) {
     told.textContent = wrong;
     told.hidden = wrong === "";
     input.setAttribute("aria-invalid", String(wrong !== ""));
   }
 
   /** Whether the scene would take it. */
-  async function judge() {
+  async function judge(): Promise<boolean> {
     clearTimeout(timer);
     const mine = ++n;
     let wrong = "";
     try {
       await check(valueOf(input.value.trim()));
     } catch (error) {
-      wrong = /** @type {Error} */ (error).message;
+      wrong = error instanceof Error ? error.message : String(error);
     }
     if (mine === n) {
       tell(wrong);
