@@ -20,7 +20,7 @@ function keepSession(name: string) {
   }
 }
 
-export type Listener = {message: (told: Told) => void; frame: (frame: Frame, bytes: Uint8Array) => void; line: (text: string) => void};
+export type Listener = {message: (told: Exclude<Told, Frame>) => void; frame: (frame: Frame, bytes: Uint8Array) => void; line: (text: string) => void};
 /** `done` gets what the answer holds, with the bytes behind it; its asker knows what that is. */
 type Waiting = {done: (answer: unknown) => void; failed: (error: Error) => void};
 
@@ -58,30 +58,31 @@ export class Connection {
   }
 
   private dispatch(told: Told | Answered, bytes: Uint8Array | null) {
-    const asked = "id" in told && typeof told.id === "number" ? this.takeWaiting(told.id) : undefined;
-    if (asked) {
-      if (told.type === "error") {
-        asked.failed(new Error(told.text));
-      } else {
-        asked.done({...told, bytes});
-      }
+    switch (told.type) {
+    case "answer":
+      this.takeWaiting(told.id)?.done({...told, bytes});
       return;
+    case "error": {
+      const asked = typeof told.id === "number" ? this.takeWaiting(told.id) : undefined;
+      if (asked) {
+        asked.failed(new Error(told.text));
+        return;
+      }
+      break;
     }
-    if (told.type === "answer") {
-      return; // Nobody waits for it.
-    }
-    if (told.type === "hello") {
+    case "frame":
+      this.listener.frame(told, bytes ?? new Uint8Array());
+      return;
+    case "hello":
       keepSession(told.session);
       this.listener.line("");
-    } else if (told.type === "taken") {
+      break;
+    case "taken":
       this.ended = true;
       this.socket?.close();
+      break;
     }
-    if (told.type === "frame") {
-      this.listener.frame(told, bytes ?? new Uint8Array());
-    } else {
-      this.listener.message(told);
-    }
+    this.listener.message(told);
   }
 
   private takeWaiting(id: number): Waiting | undefined {

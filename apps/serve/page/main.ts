@@ -5,18 +5,21 @@ import type {Context} from "./editor/context.js";
 import {byId, element, hand} from "./controls.js";
 import {countsText} from "./view/counts.js";
 import {itemRows, showCamera, showScene} from "./editor/editor.js";
-import {download, listenForFiles} from "./panels/files.js";
+import {download, listenForFiles, save} from "./panels/files.js";
+import {FilmPanel} from "./panels/film.js";
 import {keepFocus} from "./focus.js";
 import {HistogramStore} from "./editor/histograms.js";
+import {IntegralPanel} from "./panels/integrals.js";
 import {ItemList} from "./panels/item_list.js";
 import {LineProbe} from "./panels/line_probe.js";
-import type {AskOrSay, Frame, OverlayPlaces, State, Told, Volume} from "./messages.js";
+import type {Ask, AskOrSay, Frame, OverlayPlaces, State, Told, Volume} from "./messages.js";
 import {Overlay} from "./view/overlay.js";
 import {pickedTable} from "./panels/picked_table.js";
 import {marks, Picture} from "./view/picture.js";
 import {SavedViews, showStandardViews} from "./panels/saved_views.js";
 import type {Json} from "./scene.js";
 import {TimeSteps} from "./panels/time_steps.js";
+import {Work} from "./panels/work.js";
 
 let state: State = {type: "state", revision: 0, scene: {}, items: [], addable: [], undo: null, redo: null};
 let volume: Volume = {path: "", dimension: 3, elements: 0, bounds: [0, 0, 0, 1, 1, 1], fields: [], flows: [], displacements: [], groups: [],
@@ -24,7 +27,7 @@ let volume: Volume = {path: "", dimension: 3, elements: 0, bounds: [0, 0, 0, 1, 
 let frame: Frame | null = null;
 let pickedPoint: number[] | null = null;
 /** What lists and editors were made of: what has not changed is left to the hand. */
-const shown = {editors: "", camera: "", selected: ""};
+const shown = {editors: "", camera: "", selected: "", size: ""};
 
 const messages = byId("messages", HTMLElement);
 const mark = byId("mark", HTMLElement), counts = byId("counts", HTMLElement);
@@ -46,13 +49,14 @@ const connection = new Connection({
   line: (text) => { mark.textContent = text || "connected"; },
 });
 const ask: AskOrSay = (message) => connection.ask(message).catch((error) => { say(error); return null; });
+const raise: Ask = (message) => connection.ask(message);
 /** Raises what is wrong with a value at a place of the scene. */
 const check: Context["check"] = (pointer, value) => connection.ask({type: "check", pointer, value});
 
 const picture = new Picture(connection, showFrame);
 new CameraHand(connection, picture, pick);
 const overlay = new Overlay(byId("marks", SVGSVGElement), {tell: (message) => connection.tell(message), release}, (x, y) => picture.place(x, y));
-const histograms = new HistogramStore((message) => connection.ask(message));
+const histograms = new HistogramStore(raise);
 const items = new ItemList(ask, showState);
 const savedViews = new SavedViews(ask, set);
 const time = new TimeSteps(connection);
@@ -60,6 +64,16 @@ const lineProbe = new LineProbe(byId("line", HTMLElement), {
   ask, say, download, check,
   mark: (points) => { ask({type: "overlay", points}).then(showOverlay); },
 });
+
+const work = new Work(ask, say);
+const integrals = new IntegralPanel(byId("integrals", HTMLElement), {
+  ask: raise, check, work, field: sceneField,
+  plane: () => (items.selected?.kind === "surface" ? state.scene.surfaces?.[items.selected.index]?.plane : undefined),
+});
+const stem = () => (volume.path || "scene").replace(/\.[^.]*$/, "");
+const [saveWidth, saveHeight] = [byId("save-width", HTMLInputElement), byId("save-height", HTMLInputElement)];
+const savedSize = (): [number, number] => [Number(saveWidth.value), Number(saveHeight.value)];
+const film = new FilmPanel({ask: raise, work, size: savedSize, save, stem});
 
 /** Places of handles and points in the picture. */
 function showOverlay(told: OverlayPlaces | null) {
@@ -94,7 +108,7 @@ function refuse(what: unknown) {
   showState();
 }
 
-function receive(told: Told) {
+function receive(told: Exclude<Told, Frame>) {
   switch (told.type) {
   case "hello":
     volume = told.volume;
@@ -112,6 +126,9 @@ function receive(told: Told) {
     break;
   case "activity":
     byId("activity", HTMLElement).textContent = told.text;
+    break;
+  case "progress":
+    work.progress(told.fraction);
     break;
   case "error":
     say(told.text);
@@ -173,9 +190,11 @@ function showState() {
   selectOnServer();
   time.show(volume.times, state.scene.volume?.time_step ?? 0);
   savedViews.show(state.scene.views ?? []);
-  const fields = ["save-width", "save-height"].map((id) => byId(id, HTMLInputElement));
-  if (fields.every((field) => field !== active)) {
-    fields.forEach((field, i) => { field.value = String((state.scene.image?.size ?? [1024, 768])[i]); });
+  film.show(state.scene.animation !== undefined);
+  const size = state.scene.image?.size;
+  if (size && active !== saveWidth && active !== saveHeight && JSON.stringify(size) !== shown.size) {
+    shown.size = JSON.stringify(size);
+    [saveWidth.value, saveHeight.value] = size.map(String);
   }
 }
 
@@ -190,6 +209,7 @@ function showEditors() {
   const context = editorContext(), field = context.sceneField;
   keepFocus(() => showScene(context));
   lineProbe.follow(state.scene, field);
+  integrals.follow(state.scene);
   byId("item-section", HTMLElement).hidden = !item;
   if (item) {
     byId("item-title", HTMLElement).textContent = item.label;
@@ -197,10 +217,14 @@ function showEditors() {
   }
 }
 
+function sceneField(): string {
+  return state.scene.field ?? volume.fields[0]?.name ?? "";
+}
+
 function editorContext(): Context {
   const {scene} = state;
   return {
-    scene, volume, sceneField: scene.field ?? volume.fields[0]?.name ?? "", set, check, release, refuse, histograms,
+    scene, volume, sceneField: sceneField(), set, check, release, refuse, histograms,
     picked: () => pickedPoint,
     begin: {transfer: async () => (await ask({type: "transfer"}))?.transfer ?? null},
     more: {"key frames": withKeyFrame},
@@ -246,7 +270,7 @@ byId("panel", HTMLElement).addEventListener("focusin", ({target}) => {
   const titled = target instanceof Element ? target.closest<HTMLElement>("[title]") : null;
   byId("help", HTMLElement).textContent = titled?.title ?? "";
 });
-listenForFiles({ask, say, picture, stem: () => (volume.path || "scene").replace(/\.[^.]*$/, "")});
+listenForFiles({ask: raise, say, work, picture, size: savedSize, stem});
 document.addEventListener("keydown", (event) => {
   const isTyping = event.target instanceof HTMLInputElement && (event.target.type === "text" || event.target.type === "number");
   if ((event.ctrlKey || event.metaKey) && !isTyping && (event.key === "z" || event.key === "y")) {

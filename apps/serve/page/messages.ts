@@ -23,6 +23,21 @@ export type Histogram = {lower: number; upper: number; bins: number[]; quantiles
 export type Series = {name: string; points: [number, number | null][]};
 export type Line = {series: Series[]; breaks: {at: number}[]; no_breaks_because: string; length: number; n_outside: number; csv: string};
 
+export type PictureFormat = "png" | "svg" | "pdf";
+/** What is integrated over. */
+export type Domain = {domain: "volume"} | {domain: "boundary"; groups: string[]} | {domain: "plane"; plane: number[]}
+  | {domain: "isosurface"; level_field: string; isovalue: number};
+/** `field`: "" is the number 1. */
+export type IntegralWishes = Domain & {field: string; flux: boolean};
+/** As `elvis integrate` prints them; null is what is not finite. */
+export type Integral = {
+  value: number | null; error: number | null; measure: number | null; measure_error: number | null;
+  converged: boolean; exact: boolean; parts: number; evaluations: number;
+};
+/** As `elvis extrema` prints them. */
+export type Extremum = {value: number; interval?: [number, number]; element: number; xi: Triple; position?: Triple};
+export type Extrema = {field: string; certainty: "certified" | "sampled"; minimum: Extremum; maximum: Extremum};
+
 /** Of each kind of message: what it holds, and what the answer to it does. */
 export type Messages = {
   "resize": [{width: number; height: number}, Nothing];
@@ -51,7 +66,12 @@ export type Messages = {
   "transfer": [Nothing, {transfer: JsonObject}];
   "undecided": [Nothing, {size: Size; n_undecided: number}];
   "save scene": [Nothing, {scene: Scene & {camera: Camera}; text: string}];
-  "save picture": [{width: number; height: number}, Nothing];
+  "save picture": [{width: number; height: number; format: PictureFormat}, {mime: string}];
+  "integrate": [IntegralWishes, {integral: Integral; doubts: string[]}];
+  "extrema": [{field: string}, {extrema: Extrema}];
+  "film": [{width: number; height: number}, {n_pictures: number; frames_a_second: number}];
+  "film picture": [{index: number}, {name: string; mime: string}];
+  "stop": [Nothing, Nothing];
   "shown": [{frame: number}, Nothing];
 };
 export type Kind = keyof Messages;
@@ -80,6 +100,7 @@ export type Frame = {
 };
 /** What the server says by itself. */
 export type Told = {type: "hello"; session: string; volume: Volume} | State | Frame | {type: "activity"; text: string} | {type: "taken"}
+  | {type: "progress"; id: number | null; fraction: number}
   | {type: "error"; text: string; id?: number | null; revision?: number};
 /** What it says to a message that has that number. */
 export type Answered = {type: "answer"; id: number} | {type: "error"; text: string; id: number};

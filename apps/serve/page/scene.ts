@@ -10,9 +10,9 @@ export type Peak = {value: number; width: number; density: number; color?: numbe
 export type VolumeRendering = {
   field?: string; color_map?: ColorMap; density?: number[][]; opacity?: number[][]; peaks?: Peak[]; transfer?: Json;
 };
-export type Surface = {type: string; name?: string};
+export type Surface = {type: string; name?: string; plane?: number[]};
 export type View = {name: string; camera: Camera};
 export type Scene = {
-  camera?: Camera; views?: View[]; field?: string; color_map?: ColorMap; warp?: Json; volume?: {time_step?: number}; image?: {size?: [number, number]};
+  camera?: Camera; views?: View[]; field?: string; color_map?: ColorMap; warp?: Json; animation?: Json; volume?: {time_step?: number}; image?: {size?: [number, number]};
   surfaces?: Surface[]; lighting?: {lights?: JsonObject[]}; volume_rendering?: VolumeRendering;
 };

@@ -4,6 +4,7 @@ import type {Context} from "./context.js";
 import {choice, number, placed, row} from "../controls.js";
 import type {Entry} from "./entry.js";
 import type {ColorMap} from "../scene.js";
+import {colorAt} from "./palette.js";
 import {objectNode} from "./schema.js";
 import {keysBut, objectRows} from "./schema_rows.js";
 
@@ -39,10 +40,7 @@ export function colorMapRows({place, label, node, value, part, put, context}: En
 function evenly(palette: number[][]): number[][] {
   return Array.from({length: nFirstPoints}, (_, i) => {
     const at = i / (nFirstPoints - 1);
-    const behind = Math.max(1, palette.findIndex((point) => point[0] >= at));
-    const [from, to] = [palette[behind - 1], palette[Math.min(behind, palette.length - 1)]];
-    const share = to[0] > from[0] ? (at - from[0]) / (to[0] - from[0]) : 0;
-    return [at, ...[1, 2, 3].map((c) => Number((from[c] + share * (to[c] - from[c])).toPrecision(4)))];
+    return [at, ...colorAt(palette, at).map((part) => Number(part.toPrecision(4)))];
   });
 }
 

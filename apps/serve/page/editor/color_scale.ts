@@ -1,9 +1,11 @@
 // The colours of a map with the field's histogram above them, and the range as two grips.
 import {scale, short} from "../axis.js";
+import {ColorPoints} from "./color_points.js";
 import type {Context} from "./context.js";
 import {button, buttons, element, hexOf, movable, setAttributes, shape} from "../controls.js";
 import type {Histogram} from "../messages.js";
 import type {ColorMap} from "../scene.js";
+import {colorAt} from "./palette.js";
 
 type Ends = [number, number];
 
@@ -64,7 +66,7 @@ export function colorScale(place: string, map: ColorMap, field: string, context:
   let domain: Ends | null = null;
   const axis = () => scale(domain ?? [0, 1], isLogarithmic);
   const x = (value: number) => width * Math.min(1, Math.max(0, axis().place(value)));
-  const placeOf = (event: PointerEvent) => {
+  const placeOf = (event: MouseEvent) => {
     const box = drawing.getBoundingClientRect();
     return Math.min(1, Math.max(0, (event.clientX - box.left) / box.width));
   };
@@ -80,7 +82,8 @@ export function colorScale(place: string, map: ColorMap, field: string, context:
     back.replaceChildren(
       ...(data && data.upper > data.lower ? bars(data, x, above, above) : []),
       shape("rect", {class: "outside", x: 0, y: above, width, height: bar}),
-      ...gradient(colors, (at) => x(scaled.value(at))));
+      ...gradient(points?.palette() ?? colors, (at) => x(scaled.value(at))));
+    points?.draw();
     shown.map(x).forEach((at, i) => {
       setAttributes(grips[i], {d: `M${at} 0V${height}M${at - 4} ${height}H${at + 4}V${above}H${at - 4}Z`, "aria-valuenow": shown[i],
         "aria-valuemin": low, "aria-valuemax": high, "aria-valuetext": short(shown[i])});
@@ -100,24 +103,21 @@ export function colorScale(place: string, map: ColorMap, field: string, context:
       button("10-90 %", () => { if (quantiles) { set([quantiles[1], quantiles[2]], true); } }, {disabled: !quantiles}),
     ];
   }
-  drawing.append(back, ...grips);
+  const points = ColorPoints.of(place, map, context, {
+    drawing, middle: above + bar / 2, draw, palette: () => colors,
+    at: (event) => scale(shownRange() ?? [0, 1], isLogarithmic).place(axis().value(placeOf(event))),
+    x: (at) => x(scale(shownRange() ?? [0, 1], isLogarithmic).value(at)),
+  });
+  drawing.append(back, ...grips, ...(points?.grips ?? []));
   draw();
   return [drawing, ends, choices];
 }
 
 /** Even colours between points; SVG's own gradients would need names. */
-function gradient(points: number[][], x: (position: number) => number): Element[] {
+function gradient(palette: number[][], x: (position: number) => number): Element[] {
   const n = 64;
-  let at = 0;
-  return points.length === 0 ? [] : Array.from({length: n}, (_, i) => {
-    const position = (i + 0.5) / n;
-    while (at + 2 < points.length && points[at + 1][0] < position) {
-      ++at;
-    }
-    const [from, to] = [points[at], points[Math.min(at + 1, points.length - 1)]];
-    const share = to[0] > from[0] ? Math.min(1, Math.max(0, (position - from[0]) / (to[0] - from[0]))) : 0;
-    const rgb = [1, 2, 3].map((c) => from[c] + share * (to[c] - from[c]));
+  return palette.length === 0 ? [] : Array.from({length: n}, (_, i) => {
     const left = x(i / n);
-    return shape("rect", {x: left, y: above, width: Math.max(0, x((i + 1) / n) - left + 0.4), height: bar, fill: hexOf(rgb)});
+    return shape("rect", {x: left, y: above, width: Math.max(0, x((i + 1) / n) - left + 0.4), height: bar, fill: hexOf(colorAt(palette, (i + 0.5) / n))});
   });
 }

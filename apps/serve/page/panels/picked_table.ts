@@ -2,13 +2,7 @@
 import {element} from "../controls.js";
 import type {Picked} from "../messages.js";
 import type {Json} from "../scene.js";
-
-/** What is not known is null, or missing. */
-const linesOf = (value: Json | undefined) => (Array.isArray(value) ? value.map((x) => element("div", {}, [String(x)])) : [String(value ?? "unknown")]);
-
-export function table(rows: [string, Json | undefined][]): HTMLTableElement {
-  return element("table", {}, rows.map(([name, value]) => element("tr", {}, [element("th", {scope: "row"}, [name]), element("td", {}, linesOf(value))])));
-}
+import {valueTable} from "./value_table.js";
 
 export function pickedTable(picked: Picked): Element {
   if (!picked.hit) {
@@ -23,5 +17,5 @@ export function pickedTable(picked: Picked): Element {
     rows.push([`grad ${field.name}`, field.gradients]);
   }
   rows.push(["Jacobian", picked.jacobian], ["order", picked.order]);
-  return picked.remark ? element("div", {}, [table(rows), element("p", {}, [picked.remark])]) : table(rows);
+  return picked.remark ? element("div", {}, [valueTable(rows), element("p", {}, [picked.remark])]) : valueTable(rows);
 }

@@ -1,13 +1,11 @@
+#include "answers_as_json.hpp"
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
 #include <apps/elvis/volume_arguments.hpp>
 
-#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -77,20 +75,6 @@ elvis_integral integral_of(const data& volume, const IntegrateArguments& argumen
                                      [&] { return control.is_cancelled(); }});
 }
 
-void say_doubts(const elvis_integral& integral) {
-    if (integral.n_inverted > 0) {
-        std::fprintf(stderr, "warning: the Jacobian determinant is negative in %s, whose measure counts as positive\n",
-                     counted(integral.n_inverted, "element").c_str());
-    }
-    if (integral.n_unresolved > 0) {
-        std::fprintf(stderr, "warning: the surface stays undecided in %s; what they may add is in the errors\n",
-                     counted(integral.n_unresolved, "small place").c_str());
-    }
-    if (integral.is_converged == 0) {
-        std::fprintf(stderr, "warning: the error is larger than the tolerance\n");
-    }
-}
-
 void run_integrate(const IntegrateArguments& arguments) {
     const int n_domains = int{arguments.is_boundary} + int{!arguments.plane.empty()} + int{!arguments.isovalue.empty()};
     if (n_domains > 1) {
@@ -102,16 +86,10 @@ void run_integrate(const IntegrateArguments& arguments) {
     const context library = library_context();
     const data volume = open_volume(library, arguments.volume, arguments.time_step);
     const elvis_integral integral = integral_of(volume, arguments);
-    const nlohmann::ordered_json answer = {{"value", integral.value},
-                                           {"error", integral.error},
-                                           {"measure", integral.measure},
-                                           {"measure_error", integral.measure_error},
-                                           {"converged", integral.is_converged != 0},
-                                           {"exact", integral.is_exact != 0},
-                                           {"parts", integral.n_parts},
-                                           {"evaluations", integral.n_evaluations}};
-    std::printf("%s\n", answer.dump(2).c_str());
-    say_doubts(integral);
+    std::printf("%s\n", integral_json(integral).dump(2).c_str());
+    for (const std::string& doubt : doubts_of(integral)) {
+        std::fprintf(stderr, "warning: %s\n", doubt.c_str());
+    }
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "answers_as_json.hpp"
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/open_volume.hpp>
@@ -5,15 +6,9 @@
 
 #include <core/base/error.hpp>
 
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
-#include <vector>
 
 namespace elvis::commands {
 namespace {
@@ -25,21 +20,6 @@ struct ExtremaArguments {
     std::uint32_t time_step = 0;
 };
 
-/** `bound`: beyond it lies no value, if it is certified. */
-nlohmann::ordered_json extremum(double value, double bound, bool is_certified, std::int64_t element, const double* xi,
-                                const double* position) {
-    nlohmann::ordered_json answer = {{"value", value}};
-    if (is_certified) {
-        answer["interval"] = {std::min(value, bound), std::max(value, bound)};
-    }
-    answer["element"] = element;
-    answer["xi"] = std::array{xi[0], xi[1], xi[2]};
-    if (std::isfinite(position[0])) {
-        answer["position"] = std::array{position[0], position[1], position[2]};
-    }
-    return answer;
-}
-
 void run_extrema(const ExtremaArguments& arguments) {
     const context library = library_context(arguments.device);
     const data volume = open_volume(library, arguments.volume, arguments.time_step);
@@ -47,18 +27,7 @@ void run_extrema(const ExtremaArguments& arguments) {
         throw Error(arguments.volume.files.front(), "has no fields");
     }
     const std::string field = arguments.field.empty() ? volume.field(0).name : arguments.field;
-    const elvis_range range = volume.range(field, arguments.time_step);
-    if (!std::isfinite(range.minimum) || !std::isfinite(range.maximum)) {
-        throw Error(field, "is not finite everywhere: it has no extrema");
-    }
-    const bool is_certified = range.certainty == ELVIS_CERTIFIED;
-    const nlohmann::ordered_json answer = {
-        {"field", field},
-        {"certainty", is_certified ? "certified" : "sampled"},
-        {"minimum", extremum(range.minimum, range.lower_bound, is_certified, range.minimum_element, range.minimum_xi,
-                             range.minimum_position)},
-        {"maximum", extremum(range.maximum, range.upper_bound, is_certified, range.maximum_element, range.maximum_xi,
-                             range.maximum_position)}};
+    const auto answer = extrema_json(field, volume.range(field, arguments.time_step));
     std::printf("%s\n", answer.dump(2).c_str());
 }
 
