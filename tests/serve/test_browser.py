@@ -1,7 +1,9 @@
 """The page of `elvis serve` in Chromium: load, orbit, add, pick, undo, reconnect, save."""
+import io
 import json
 import os
 import unittest
+import zipfile
 
 import browser
 from browser_case import SETTLED, BrowserCase
@@ -202,6 +204,118 @@ class BrowserTest(BrowserCase):
         self.assertEqual(page.run(f"return {scene}.volume.time_step"), step)
         self.assertEqual(self.without_names(), [])
         self.assertEqual(page.run("return document.getElementById('messages').innerText"), "")
+        self.assertEqual(page.complaints(), [])
+
+    def test_integrals_films_and_pictures_of_all_formats(self):
+        page = self.page
+        page.open(self.server.url)
+        page.wait(SETTLED)
+        answer = "document.getElementById('integral').innerText"
+
+        def choose(label, value):
+            page.run("const c = document.querySelector(`[aria-label='${arguments[0]}']`); c.value = arguments[1]; c.onchange()", label, value)
+
+        def press(words):
+            page.run("[...document.querySelectorAll('#integrals button')].find((b) => b.textContent === arguments[0]).click()", words)
+
+        def shown(name):
+            return page.run("return [...document.querySelectorAll('#integral tr')].find((r) => r.firstChild.textContent === arguments[0]).lastChild.innerText", name)
+
+        # The plane is that of the selected item.
+        self.add("Cut plane")
+        page.wait(SETTLED)
+        choose("What is integrated over", "plane")
+        choose("Field of the integral", "p")
+        press("Integrate")
+        page.wait(f"{answer}.includes('evaluations')")
+        self.shot("integral.png")
+        expected = json.loads(run("integrate", self.volume, "--cut-plane", "0,0,1,0", "--field", "p").stdout)
+        self.assertEqual(float(shown("integral")), expected["value"])
+        self.assertEqual(float(shown("measure")), expected["measure"])
+        press("Extrema")
+        page.wait(f"{answer}.includes('maximum')")
+        self.assertEqual(float(shown("maximum")), json.loads(run("extrema", self.volume, "--field", "p").stdout)["maximum"]["value"])
+        choose("What is integrated over", "isosurface")
+        press("Integrate")
+        page.wait("document.getElementById('messages').innerText.includes('has a value')")
+
+        page.click("#save-scene")
+        path = os.path.join(self.folder, "saved.json")
+        for ending in ("svg", "pdf"):
+            page.run("document.getElementById('save-format').value = arguments[0]", ending)
+            page.click("#save-picture")
+            picture = self.downloaded(f"waves.{ending}")
+            if ending == "svg":
+                with open(path, "wb") as file:
+                    file.write(self.downloaded("waves.json"))
+            run("render", path, "-o", os.path.join(self.folder, f"drawn.{ending}"))
+            with open(os.path.join(self.folder, f"drawn.{ending}"), "rb") as file:
+                self.assertEqual(file.read(), picture)
+
+        # A film is stopped, and made.
+        self.assertTrue(page.run("return document.getElementById('save-film').disabled"))
+        page.run("return elvis.connection.ask({type: 'set', pointer: '/animation', value: {turntable: {frames: 3}}, name: 'animation'})")
+        page.wait(f"{SETTLED} && !document.getElementById('save-film').disabled")
+        page.click("#save-film")
+        page.wait("!document.getElementById('work').hidden")
+        self.shot("film.png")
+        page.click("#save-scene")  # The page goes on meanwhile.
+        page.click("#work-stop")
+        page.wait("document.getElementById('work').hidden")
+        for id, value in (("save-width", 40), ("save-height", 30)):
+            page.run("document.getElementById(arguments[0]).value = arguments[1]", id, value)
+        page.click("#save-film")
+        with open(path, "wb") as file:
+            file.write(self.downloaded("waves.json"))
+        film = zipfile.ZipFile(io.BytesIO(self.downloaded("waves-film.zip")))
+        self.assertIsNone(film.testzip())
+        run("render", path, "--size", "40x30", "-o", os.path.join(self.folder, "film"))
+        names = sorted(os.listdir(os.path.join(self.folder, "film")))
+        self.assertEqual(film.namelist(), names)
+        for name in names:
+            with open(os.path.join(self.folder, "film", name), "rb") as file:
+                self.assertEqual(film.read(name), file.read())
+        self.assertEqual(self.without_names(), [])
+        self.assertEqual(page.complaints(), [])
+
+    def test_colours_are_dragged_on_their_scale(self):
+        page = self.page
+        page.open(self.server.url)
+        page.wait(SETTLED)
+        points = "elvis.state().scene.color_map?.points"
+        page.run("return elvis.connection.ask({type: 'set', pointer: '/color_map', name: 'colours', value: {points: [[0, 0, 0, 1], [4, 1, 1, 1], [10, 1, 0, 0]]}})")
+        page.wait(f"{points}?.length === 3")
+        scale = "document.querySelector('#color-editor .scale')"
+        page.wait(f"{scale}.querySelectorAll('.color-point').length === 3 && {scale}.querySelectorAll('.color-point')[1].hasAttribute('cx')")
+        page.run(f"{scale}.scrollIntoView({{block: 'center'}})")
+
+        def place(index):
+            return page.run(f"const b = {scale}.querySelectorAll('.color-point')[arguments[0]].getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2].map(Math.round)", index)
+
+        left, middle, right = place(0), place(1), place(2)
+        page.drag(middle, (round(0.3 * (right[0] - left[0])), 0))
+        page.wait(f"{points}[1][0] > 6.8")
+        moved = page.run(f"return {points}")
+        self.assertAlmostEqual(moved[1][0], 7, delta=0.15)
+        self.assertEqual([moved[0], moved[1][1:], moved[2]], [[0, 0, 0, 1], [1, 1, 1], [10, 1, 0, 0]])
+        page.wait(SETTLED)
+        self.shot("colour-points.png")
+        page.click("#undo")  # All of it is one step.
+        page.wait(f"{points}[1][0] === 4")
+        page.drag(place(2), (-40, 0))  # An end stays.
+        self.assertEqual(page.run(f"return {points}[2][0]"), 10)
+        page.run(f"{scale}.querySelectorAll('.color-point')[1].focus()")
+        page.press(RIGHT)
+        page.wait(f"{points}[1][0] === 4.1")
+        page.run(f"{scale}.dispatchEvent(new MouseEvent('dblclick', {{clientX: arguments[0], clientY: arguments[1]}}))", (place(1)[0] + place(2)[0]) / 2, right[1])
+        page.wait(f"{points}.length === 4")
+        added = page.run(f"return {points}[2]")
+        self.assertAlmostEqual(added[0], (4.1 + 10) / 2, delta=0.1)
+        self.assertLess(max(abs(found - wanted) for found, wanted in zip(added[1:], (1, 0.5, 0.5))), 0.02)
+        page.run(f"{scale}.querySelectorAll('.color-point')[1].focus()")
+        page.press(DELETE)
+        page.wait(f"{points}.length === 3")
+        self.assertEqual(self.without_names(), [])
         self.assertEqual(page.complaints(), [])
 
 

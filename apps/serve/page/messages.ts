@@ -100,7 +100,7 @@ export type Frame = {
 };
 /** What the server says by itself. */
 export type Told = {type: "hello"; session: string; volume: Volume} | State | Frame | {type: "activity"; text: string} | {type: "taken"}
-  | {type: "progress"; id: number | null; fraction: number}
+  | {type: "progress"; of: number | null; fraction: number}
   | {type: "error"; text: string; id?: number | null; revision?: number};
 /** What it says to a message that has that number. */
 export type Answered = {type: "answer"; id: number} | {type: "error"; text: string; id: number};

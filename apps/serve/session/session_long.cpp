@@ -92,7 +92,7 @@ std::function<void(double, const char*)> Session::progress_of(const Task& task) 
         const std::unique_lock lock(m_mutex, std::try_to_lock);
         if (lock.owns_lock()) {
             last = now;
-            send_to(from, {{"type", "progress"}, {"id", id}, {"fraction", fraction}});
+            send_to(from, {{"type", "progress"}, {"of", id}, {"fraction", fraction}});
         }
     };
 }
