@@ -53,7 +53,7 @@ class Turn:
             self.late.append(1000 * time.monotonic() - (message["echo"] or 0))
 
     def __str__(self):
-        across = [frame["image"][0] for frame in self.frames]
+        across = [SIZE[0] // (frame["divisor"] * frame["shrink"]) for frame in self.frames]
         large = sum(width == SIZE[0] for width in across) / len(across)
         return (f"{len(self.frames) / self.seconds:.1f} pictures a second, {statistics.median(self.late):.0f} ms after the hand, {statistics.median(across):.0f} pixels across, "
                 f"{100 * large:.0f} % of them {SIZE[0]}; load {os.getloadavg()[0]:.1f}")

@@ -18,13 +18,13 @@ class MovingTest(unittest.TestCase):
             for frame in turn.frames:
                 self.assertEqual((frame["size"], frame["mime"]), (SIZE, "image/jpeg"))
                 self.assertEqual(frame["stage"], "moving" if frame in moving else "full")
-                self.assertEqual(frame["image"], [-(-side // (frame["divisor"] * frame["shrink"])) for side in SIZE])
+                self.assertEqual(frame["image"], [-(-side // frame["shrink"]) for side in SIZE])
             # None is older than one before.
             told = [frame["echo"] for frame in turn.frames if frame["echo"]]
             self.assertEqual(told, sorted(told))
             last = page.ask(type="save scene")["scene"]["camera"]
             exact = page.wait(lambda m: m["type"] == "frame" and m["stage"] == "exact")
-            self.assertEqual(exact["camera"], last)
+            self.assertEqual([exact["camera"][key] for key in ("eye", "look_at", "up")], [last[key] for key in ("eye", "look_at", "up")])
             page.close()
 
 
