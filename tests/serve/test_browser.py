@@ -254,21 +254,24 @@ class BrowserTest(BrowserCase):
 
         # A film is stopped, and made.
         self.assertTrue(page.run("return document.getElementById('save-film').disabled"))
-        page.run("return elvis.connection.ask({type: 'set', pointer: '/animation', value: {turntable: {frames: 3}}, name: 'animation'})")
+        animate = "return elvis.connection.ask({type: 'set', pointer: '/animation', value: {turntable: {frames: arguments[0]}}, name: 'animation'})"
+        page.run(animate, 500)
         page.wait(f"{SETTLED} && !document.getElementById('save-film').disabled")
         page.click("#save-film")
         page.wait("!document.getElementById('work').hidden")
         self.shot("film.png")
-        page.click("#save-scene")  # The page goes on meanwhile.
+        page.wait("document.getElementById('work-progress').value > 0")
         page.click("#work-stop")
         page.wait("document.getElementById('work').hidden")
+        page.run(animate, 3)
         for id, value in (("save-width", 40), ("save-height", 30)):
             page.run("document.getElementById(arguments[0]).value = arguments[1]", id, value)
         page.click("#save-film")
-        with open(path, "wb") as file:
-            file.write(self.downloaded("waves.json"))
         film = zipfile.ZipFile(io.BytesIO(self.downloaded("waves-film.zip")))
         self.assertIsNone(film.testzip())
+        page.click("#save-scene")
+        with open(path, "wb") as file:
+            file.write(self.downloaded("waves.json"))
         run("render", path, "--size", "40x30", "-o", os.path.join(self.folder, "film"))
         names = sorted(os.listdir(os.path.join(self.folder, "film")))
         self.assertEqual(film.namelist(), names)
@@ -283,17 +286,18 @@ class BrowserTest(BrowserCase):
         page.open(self.server.url)
         page.wait(SETTLED)
         points = "elvis.state().scene.color_map?.points"
-        page.run("return elvis.connection.ask({type: 'set', pointer: '/color_map', name: 'colours', value: {points: [[0, 0, 0, 1], [4, 1, 1, 1], [10, 1, 0, 0]]}})")
-        page.wait(f"{points}?.length === 3")
+        value = {"points": [[0, 0, 0, 1], [4, 1, 1, 1], [10, 1, 0, 0]]}
+        page.run("""return elvis.connection.ask({type: 'set', pointer: '/color_map', name: 'colours', value: arguments[0]})
+            .then(() => elvis.connection.ask({type: 'release'}))""", value)
         scale = "document.querySelector('#color-editor .scale')"
-        page.wait(f"{scale}.querySelectorAll('.color-point').length === 3 && {scale}.querySelectorAll('.color-point')[1].hasAttribute('cx')")
+        page.wait(f"{points}?.length === 3 && {scale}.querySelector('.color-point')?.hasAttribute('cx')")
         page.run(f"{scale}.scrollIntoView({{block: 'center'}})")
+        box = page.run(f"const b = {scale}.querySelector('.outside').getBoundingClientRect(); return [b.left, b.top + b.height / 2, b.width]")
 
-        def place(index):
-            return page.run(f"const b = {scale}.querySelectorAll('.color-point')[arguments[0]].getBoundingClientRect(); return [b.left + b.width / 2, b.top + b.height / 2].map(Math.round)", index)
+        def place(position):
+            return [round(box[0] + box[2] * position / 10), round(box[1])]
 
-        left, middle, right = place(0), place(1), place(2)
-        page.drag(middle, (round(0.3 * (right[0] - left[0])), 0))
+        page.drag(place(4), (round(0.3 * box[2]), 0))
         page.wait(f"{points}[1][0] > 6.8")
         moved = page.run(f"return {points}")
         self.assertAlmostEqual(moved[1][0], 7, delta=0.15)
@@ -302,17 +306,16 @@ class BrowserTest(BrowserCase):
         self.shot("colour-points.png")
         page.click("#undo")  # All of it is one step.
         page.wait(f"{points}[1][0] === 4")
-        page.drag(place(2), (-40, 0))  # An end stays.
-        self.assertEqual(page.run(f"return {points}[2][0]"), 10)
-        page.run(f"{scale}.querySelectorAll('.color-point')[1].focus()")
+        page.run(f"{scale}.querySelector('.color-point').focus()")
         page.press(RIGHT)
         page.wait(f"{points}[1][0] === 4.1")
-        page.run(f"{scale}.dispatchEvent(new MouseEvent('dblclick', {{clientX: arguments[0], clientY: arguments[1]}}))", (place(1)[0] + place(2)[0]) / 2, right[1])
+        page.run(f"{scale}.dispatchEvent(new MouseEvent('dblclick', {{clientX: arguments[0], clientY: arguments[1]}}))", *place(7))
         page.wait(f"{points}.length === 4")
         added = page.run(f"return {points}[2]")
-        self.assertAlmostEqual(added[0], (4.1 + 10) / 2, delta=0.1)
-        self.assertLess(max(abs(found - wanted) for found, wanted in zip(added[1:], (1, 0.5, 0.5))), 0.02)
-        page.run(f"{scale}.querySelectorAll('.color-point')[1].focus()")
+        self.assertAlmostEqual(added[0], 7, delta=0.1)
+        share = (7 - 4.1) / (10 - 4.1)
+        self.assertLess(max(abs(found - wanted) for found, wanted in zip(added[1:], (1, 1 - share, 1 - share))), 0.02)
+        page.run(f"{scale}.querySelectorAll('.color-point')[0].focus()")
         page.press(DELETE)
         page.wait(f"{points}.length === 3")
         self.assertEqual(self.without_names(), [])
