@@ -226,8 +226,8 @@ class ServeTest(unittest.TestCase):
 
     def test_every_doubt_is_marked(self):
         page = self.page()
-        none_halved = {"type": "plane", "plane": [0, 0, 1, 0], "contours": {"count": 20, "subdivisions": 0}, "mesh_lines": {"subdivisions": 0}}
-        page.ask(type="set", pointer="/surfaces", value=[none_halved])
+        lines = {"type": "plane", "plane": [0, 0, 1, 0], "contours": {"count": 20}, "mesh_lines": {}}
+        self.assertEqual(page.ask(type="merge", patch={"surfaces": [lines], "subdivisions": 0})["type"], "answer")
         counts = page.exact()["counts"]
         doubtful = [counts[name] for name in ("undecided_pixels", "undecided_contour_pixels", "undecided_mesh_line_pixels")]
         self.assertGreater(counts["undecided_contour_pixels"], counts["undecided_pixels"])

@@ -104,7 +104,8 @@ export class Connection {
       this.listener.line("continued in another tab; reload to take it back");
       return;
     }
-    this.listener.line("connection lost, trying again");
+    // A server that was started anew has another address.
+    this.listener.line(this.failures < retryMilliseconds.length ? "connection lost, trying again" : "no connection: was the server started anew?");
     const wait = retryMilliseconds[Math.min(this.failures++, retryMilliseconds.length - 1)];
     setTimeout(() => this.open(), wait);
   }
