@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace elvis::view {
 
@@ -20,6 +21,10 @@ constexpr std::uint32_t coarsest_with_lines = 4;
  * than so many times as long, for a part of the time goes with no pixel.
  */
 constexpr double worth_a_trial = 0.64;
+/** Of the mean time of pictures of a size: one that is slow by chance is not enough for another size. */
+constexpr double newest_share = 0.3;
+/** Of the budget: the first picture of a larger size makes its buffers, too, and is not what the size is judged by. */
+constexpr double first_may_take = 3;
 /** Pictures of one size before a trial, at most: after some that were too slow. */
 constexpr int most_patience = 320;
 
@@ -105,11 +110,16 @@ double FrameSchedule::expected(std::uint32_t divisor, const Sample& drawn) const
 }
 
 void FrameSchedule::choose_divisor(Sample drawn) {
+    const bool is_larger = m_last && drawn.divisor < m_last->divisor;
+    const bool is_slow = drawn.milliseconds > m_budget && drawn.milliseconds <= first_may_take * m_budget;
+    if (is_larger && is_slow && !std::exchange(m_is_second, true)) {
+        return;
+    }
+    m_is_second = false;
     const bool is_alike = m_last && m_last->divisor == drawn.divisor;
     m_n_alike = is_alike ? m_n_alike + 1 : 0;
     if (is_alike) {
-        // One that was slow by chance is not enough for another size.
-        drawn.milliseconds = 0.5 * (drawn.milliseconds + m_last->milliseconds);
+        drawn.milliseconds = newest_share * drawn.milliseconds + (1 - newest_share) * m_last->milliseconds;
     } else {
         m_other_size = m_last;
     }

@@ -108,6 +108,8 @@ private:
     /** What another size, or lines, once took is forgotten after so many: they may have been slow for another reason. */
     static constexpr int most_alike = 20;
     int m_line_patience = most_alike;
+    /** The next picture is the second one of a larger size. */
+    bool m_is_second = false;
     /** The last change of the size was to more pixels. */
     bool m_went_up = false;
     bool m_with_lines = true;
