@@ -206,7 +206,7 @@ class BrowserTest(BrowserCase):
         self.assertEqual(page.run("return document.getElementById('messages').innerText"), "")
         self.assertEqual(page.complaints(), [])
 
-    def test_integrals_films_and_pictures_of_all_formats(self):
+    def test_integrals_films_and_pictures_of_other_formats(self):
         page = self.page
         page.open(self.server.url)
         page.wait(SETTLED)
@@ -241,16 +241,14 @@ class BrowserTest(BrowserCase):
 
         page.click("#save-scene")
         path = os.path.join(self.folder, "saved.json")
-        for ending in ("svg", "pdf"):
-            page.run("document.getElementById('save-format').value = arguments[0]", ending)
-            page.click("#save-picture")
-            picture = self.downloaded(f"waves.{ending}")
-            if ending == "svg":
-                with open(path, "wb") as file:
-                    file.write(self.downloaded("waves.json"))
-            run("render", path, "-o", os.path.join(self.folder, f"drawn.{ending}"))
-            with open(os.path.join(self.folder, f"drawn.{ending}"), "rb") as file:
-                self.assertEqual(file.read(), picture)
+        with open(path, "wb") as file:
+            file.write(self.downloaded("waves.json"))
+        page.run("document.getElementById('save-format').value = 'svg'")
+        page.click("#save-picture")
+        picture = self.downloaded("waves.svg")
+        run("render", path, "-o", os.path.join(self.folder, "drawn.svg"))
+        with open(os.path.join(self.folder, "drawn.svg"), "rb") as file:
+            self.assertEqual(file.read(), picture)
 
         # A film is stopped, and made.
         self.assertTrue(page.run("return document.getElementById('save-film').disabled"))
