@@ -9,13 +9,13 @@ packages=(
     libvulkan-dev mesa-vulkan-drivers glslang-dev glslang-tools spirv-tools
     libboost-dev libeigen3-dev libhdf5-dev libspdlog-dev libfmt-dev libcli11-dev nlohmann-json3-dev libpng-dev
     libfreetype-dev fonts-dejavu-core libglfw3-dev libimgui-dev libstb-dev
-    libpugixml-dev zlib1g-dev libdeflate-dev liblz4-dev libturbojpeg0-dev
+    libpugixml-dev zlib1g-dev libdeflate-dev liblz4-dev libturbojpeg0-dev node-typescript
 )
 python_packages=(python3-dev pybind11-dev python3-numpy)
 mpi_packages=(libopenmpi-dev openmpi-bin)
 paraview_packages=(paraview-dev python3-paraview libglew-dev)
 test_packages=(catch2 clang-format mkdocs vulkan-validationlayers python3-h5py python3-matplotlib gmsh libcgns-dev xvfb xdotool imagemagick abigail-tools
-    chromium chromium-driver node-typescript nginx-light gfortran hdf5-tools metis)
+    chromium chromium-driver nginx-light gfortran hdf5-tools metis)
 
 usage() {
     cat <<'END'

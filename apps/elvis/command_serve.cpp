@@ -24,7 +24,8 @@ void run_serve([[maybe_unused]] const ServeArguments& arguments) {
         std::fflush(stdout);
     });
 #else
-    throw Error("elvis serve", "was left out of this program: it is built where libturbojpeg0-dev is installed");
+    throw Error("elvis serve",
+                "was left out of this program: it is built where libturbojpeg0-dev and node-typescript are installed");
 #endif
 }
 

@@ -135,6 +135,19 @@ class Views(WithVolume):
         self.assertTrue(picked.wait()["hit"])
         chromium.click("#views button:nth-child(2)")
         self.assertEqual(moved.wait().eye, self.view.camera.eye)
+        # What Python says is shown there, what is done there is known here, also after the frame is loaded anew.
+        settled = "window.elvis && elvis.frame().stage === 'exact' && elvis.frame().revision >= elvis.state().revision"
+        self.view.camera = {"eye": [0, 0, 5], "up": [0, 1, 0], "look_at": [0, 0, 0]}
+        chromium.wait(f"{settled} && elvis.frame().camera.eye[2] === 5")
+        chromium.click("#add")
+        chromium.wait(f"{settled} && elvis.state().items.length === 2")
+        self.assertEqual([surface.type for surface in self.view.scene.surfaces], ["plane", "boundary"])
+        self.assertEqual(bytes(chromium.run("return [...elvis.picture.exact]")), self.view.scene.render().png())
+        chromium.run("location.reload()")
+        chromium.wait(f"{settled} && elvis.state().items.length === 2")
+        self.view.scene = self.volume.scene(field="p", isosurfaces=[0.4])
+        chromium.wait(f"{settled} && elvis.state().items[0].label.includes('sosurface')")
+        self.assertEqual(chromium.complaints(), [])
 
 
 class Heard:

@@ -24,7 +24,8 @@ class BrowserCase(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="elvis-browser-test-")
         cls.addClassCleanup(folder.cleanup)
         cls.folder = folder.name
-        cls.server = Server(make_volume(cls.folder))
+        cls.volume = make_volume(cls.folder)
+        cls.server = Server(cls.volume)
 
     @classmethod
     def tearDownClass(cls):

@@ -1,7 +1,9 @@
 """The page of `elvis serve` in Chromium: load, orbit, add, pick, undo, reconnect, save."""
+import io
 import json
 import os
 import unittest
+import zipfile
 
 import browser
 from browser_case import SETTLED, BrowserCase
@@ -202,6 +204,119 @@ class BrowserTest(BrowserCase):
         self.assertEqual(page.run(f"return {scene}.volume.time_step"), step)
         self.assertEqual(self.without_names(), [])
         self.assertEqual(page.run("return document.getElementById('messages').innerText"), "")
+        self.assertEqual(page.complaints(), [])
+
+    def test_integrals_films_and_pictures_of_other_formats(self):
+        page = self.page
+        page.open(self.server.url)
+        page.wait(SETTLED)
+        answer = "document.getElementById('integral').innerText"
+
+        def choose(label, value):
+            page.run("const c = document.querySelector(`[aria-label='${arguments[0]}']`); c.value = arguments[1]; c.onchange()", label, value)
+
+        def press(words):
+            page.run("[...document.querySelectorAll('#integrals button')].find((b) => b.textContent === arguments[0]).click()", words)
+
+        def shown(name):
+            return page.run("return [...document.querySelectorAll('#integral tr')].find((r) => r.firstChild.textContent === arguments[0]).lastChild.innerText", name)
+
+        # The plane is that of the selected item.
+        self.add("Cut plane")
+        page.wait(SETTLED)
+        choose("What is integrated over", "plane")
+        choose("Field of the integral", "p")
+        press("Integrate")
+        page.wait(f"{answer}.includes('evaluations')")
+        self.shot("integral.png")
+        expected = json.loads(run("integrate", self.volume, "--cut-plane", "0,0,1,0", "--field", "p").stdout)
+        self.assertEqual(float(shown("integral")), expected["value"])
+        self.assertEqual(float(shown("measure")), expected["measure"])
+        press("Extrema")
+        page.wait(f"{answer}.includes('maximum')")
+        self.assertEqual(float(shown("maximum")), json.loads(run("extrema", self.volume, "--field", "p").stdout)["maximum"]["value"])
+        choose("What is integrated over", "isosurface")
+        press("Integrate")
+        page.wait("document.getElementById('messages').innerText.includes('has a value')")
+
+        page.click("#save-scene")
+        path = os.path.join(self.folder, "saved.json")
+        with open(path, "wb") as file:
+            file.write(self.downloaded("waves.json"))
+        page.run("document.getElementById('save-format').value = 'svg'")
+        page.click("#save-picture")
+        picture = self.downloaded("waves.svg")
+        run("render", path, "-o", os.path.join(self.folder, "drawn.svg"))
+        with open(os.path.join(self.folder, "drawn.svg"), "rb") as file:
+            self.assertEqual(file.read(), picture)
+
+        # A film is stopped, and made.
+        self.assertTrue(page.run("return document.getElementById('save-film').disabled"))
+        animate = "return elvis.connection.ask({type: 'set', pointer: '/animation', value: {turntable: {frames: arguments[0]}}, name: 'animation'})"
+        page.run(animate, 500)
+        page.wait(f"{SETTLED} && !document.getElementById('save-film').disabled")
+        page.click("#save-film")
+        page.wait("!document.getElementById('work').hidden")
+        self.shot("film.png")
+        page.wait("document.getElementById('work-progress').value > 0")
+        page.click("#work-stop")
+        page.wait("document.getElementById('work').hidden")
+        page.run(animate, 3)
+        for id, value in (("save-width", 40), ("save-height", 30)):
+            page.run("document.getElementById(arguments[0]).value = arguments[1]", id, value)
+        page.click("#save-film")
+        film = zipfile.ZipFile(io.BytesIO(self.downloaded("waves-film.zip")))
+        self.assertIsNone(film.testzip())
+        page.click("#save-scene")
+        with open(path, "wb") as file:
+            file.write(self.downloaded("waves.json"))
+        run("render", path, "--size", "40x30", "-o", os.path.join(self.folder, "film"))
+        names = sorted(os.listdir(os.path.join(self.folder, "film")))
+        self.assertEqual(film.namelist(), names)
+        for name in names:
+            with open(os.path.join(self.folder, "film", name), "rb") as file:
+                self.assertEqual(film.read(name), file.read())
+        self.assertEqual(self.without_names(), [])
+        self.assertEqual(page.complaints(), [])
+
+    def test_colours_are_dragged_on_their_scale(self):
+        page = self.page
+        page.open(self.server.url)
+        page.wait(SETTLED)
+        points = "elvis.state().scene.color_map?.points"
+        value = {"points": [[0, 0, 0, 1], [4, 1, 1, 1], [10, 1, 0, 0]]}
+        page.run("""return elvis.connection.ask({type: 'set', pointer: '/color_map', name: 'colours', value: arguments[0]})
+            .then(() => elvis.connection.ask({type: 'release'}))""", value)
+        scale = "document.querySelector('#color-editor .scale')"
+        page.wait(f"{points}?.length === 3 && {scale}.querySelector('.color-point')?.hasAttribute('cx')")
+        page.run(f"{scale}.scrollIntoView({{block: 'center'}})")
+        box = page.run(f"const b = {scale}.querySelector('.outside').getBoundingClientRect(); return [b.left, b.top + b.height / 2, b.width]")
+
+        def place(position):
+            return [round(box[0] + box[2] * position / 10), round(box[1])]
+
+        page.drag(place(4), (round(0.3 * box[2]), 0))
+        page.wait(f"{points}[1][0] > 6.8")
+        moved = page.run(f"return {points}")
+        self.assertAlmostEqual(moved[1][0], 7, delta=0.15)
+        self.assertEqual([moved[0], moved[1][1:], moved[2]], [[0, 0, 0, 1], [1, 1, 1], [10, 1, 0, 0]])
+        page.wait(SETTLED)
+        self.shot("colour-points.png")
+        page.click("#undo")  # All of it is one step.
+        page.wait(f"{points}[1][0] === 4")
+        page.run(f"{scale}.querySelector('.color-point').focus()")
+        page.press(RIGHT)
+        page.wait(f"{points}[1][0] === 4.1")
+        page.run(f"{scale}.dispatchEvent(new MouseEvent('dblclick', {{clientX: arguments[0], clientY: arguments[1]}}))", *place(7))
+        page.wait(f"{points}.length === 4")
+        added = page.run(f"return {points}[2]")
+        self.assertAlmostEqual(added[0], 7, delta=0.1)
+        share = (7 - 4.1) / (10 - 4.1)
+        self.assertLess(max(abs(found - wanted) for found, wanted in zip(added[1:], (1, 1 - share, 1 - share))), 0.02)
+        page.run(f"{scale}.querySelectorAll('.color-point')[0].focus()")
+        page.press(DELETE)
+        page.wait(f"{points}.length === 3")
+        self.assertEqual(self.without_names(), [])
         self.assertEqual(page.complaints(), [])
 
 

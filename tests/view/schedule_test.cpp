@@ -79,6 +79,71 @@ TEST_CASE("a picture that was slow for another reason leaves those after it smal
     CHECK(made.schedule.moving_divisor() == 1);
 }
 
+TEST_CASE("of times that are nearly the same for all sizes the largest is found") {
+    // Milliseconds at a budget of 100: of 2 by 2 pixels as one 50, of all of them 88; the second time after a disturbance.
+    for (const bool is_disturbed : {false, true}) {
+        MadeUp made;
+        made.fixed = 37;
+        made.all = 51;
+        const auto move = [&](int n_frames) {
+            for (int frame = 0; frame < n_frames; ++frame) {
+                made.schedule.touch(made.now);
+                made.draw();
+            }
+        };
+        move(is_disturbed ? 3 : 0);
+        made.fixed = is_disturbed ? 300 : made.fixed;
+        move(is_disturbed ? 5 : 0);
+        made.fixed = 37;
+        move(50);
+        CAPTURE(is_disturbed);
+        CHECK(made.schedule.moving_divisor() == 1);
+    }
+}
+
+TEST_CASE("a larger size that is too slow is tried ever more seldom") {
+    MadeUp made;
+    made.fixed = 0;
+    made.all = 220; // Two by two as one: 55. There is no size in between.
+    int n_slow = 0, n_late = 0;
+    for (int frame = 0; frame < 1000; ++frame) {
+        made.schedule.touch(made.now);
+        const bool is_slow = made.draw().value() > 100;
+        n_slow += is_slow ? 1 : 0;
+        n_late += is_slow && frame >= 500 ? 1 : 0;
+    }
+    // Two pictures a trial.
+    CHECK(n_slow <= 14);
+    CHECK(n_late <= 4);
+    CHECK(made.schedule.moving_divisor() == 2);
+}
+
+TEST_CASE("the first picture of a size may take longer than the others") {
+    MadeUp made;
+    made.fixed = 37;
+    made.all = 51;
+    std::uint32_t last = 0;
+    for (int frame = 0; frame < 30; ++frame) {
+        made.schedule.touch(made.now);
+        const std::uint32_t divisor = made.schedule.next(made.now)->divisor;
+        made.fixed = divisor == last || frame == 0 ? 37 : 150;
+        last = divisor;
+        made.draw();
+    }
+    CHECK(made.schedule.moving_divisor() == 1);
+}
+
+TEST_CASE("one picture that is slow by chance does not make the next ones small") {
+    MadeUp made;
+    made.all = 60;
+    for (int frame = 0; frame < 60; ++frame) {
+        made.fixed = frame % 10 == 9 ? 120 : 2;
+        made.schedule.touch(made.now);
+        made.draw();
+        CHECK((frame < 12 || made.schedule.moving_divisor() == 1));
+    }
+}
+
 TEST_CASE("time that no pixel takes is not mended by fewer pixels") {
     for (const double fixed : {60.0, 150.0}) {
         MadeUp made;

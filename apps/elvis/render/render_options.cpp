@@ -317,6 +317,19 @@ std::array<unsigned, 2> size_of(const std::string& text) {
     return {width, height};
 }
 
+/** A shift of the picture, which makes room for colour bars, is in pixels: it grows with the picture. */
+void apply_size(const std::array<unsigned, 2>& size, Document& scene) {
+    if (scene.has("/camera/image_shift") && scene.has("/image/size")) {
+        auto shift = scene.at("/camera/image_shift").get<std::array<double, 2>>();
+        const double height = scene.at("/image/size")[1];
+        for (double& pixels : shift) {
+            pixels *= size[1] / height;
+        }
+        scene.set("/camera/image_shift", shift);
+    }
+    scene.set("/image/size", size);
+}
+
 void apply_joins(const std::vector<std::string>& joins, Document& scene) {
     json list = json::array();
     for (const std::string& text : joins) {
@@ -368,7 +381,7 @@ void apply_image(const RenderArguments& arguments, Document& scene) {
         scene.set("/lighting", "default");
     }
     if (!arguments.size.empty()) {
-        scene.set("/image/size", size_of(arguments.size));
+        apply_size(size_of(arguments.size), scene);
     }
 }
 

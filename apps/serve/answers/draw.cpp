@@ -1,5 +1,4 @@
 #include "draw.hpp"
-#include "images.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -54,15 +53,15 @@ Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSch
     return {std::move(facts), std::move(jpeg.bytes), info.render_milliseconds + since(start), info.is_refinable != 0};
 }
 
-Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch) {
+Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch, PictureFormat format) {
     auto options = detail::sized<elvis_render_options>();
     options.flags = ELVIS_RENDER_COLOR_ONLY;
     const picture drawn = served.volume.render(served.library_scene(scene), options, watch);
     const elvis_picture_info info = drawn.info();
     json facts = facts_of_picture(drawn, info);
     facts["image"] = facts["size"];
-    facts["mime"] = "image/png";
-    return {std::move(facts), png_of(drawn, served.pictures.path().string()), info.render_milliseconds, false};
+    facts["mime"] = mime_of(format);
+    return {std::move(facts), file_of(drawn, served.pictures.path().string(), format), info.render_milliseconds, false};
 }
 
 Encoded draw_undecided(const Served& served, const Scene& scene, const task& watch) {

@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include "images.hpp"
+
 #include <apps/elvis/view/model/frame_schedule.hpp>
 #include <apps/serve/served.hpp>
 
@@ -35,8 +37,8 @@ struct Line {
 /** A JPEG of the step. */
 Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSchedule::Step& step, const Line& line,
                         const task& watch);
-/** A PNG, the bytes of `elvis render`. */
-Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch);
+/** The bytes of `elvis render`. */
+Encoded draw_exactly(const Served& served, const Scene& scene, const task& watch, PictureFormat format = PictureFormat::png);
 /** One bit a pixel, rows from the top without gaps, the highest bit first: whether a flag says that the pixel may be wrong. */
 Encoded draw_undecided(const Served& served, const Scene& scene, const task& watch);
 

@@ -73,10 +73,42 @@ Jpeg jpeg_of(std::span<const std::uint8_t> rgba, std::uint32_t width, std::uint3
     return jpeg;
 }
 
-std::string png_of(const picture& drawn, const std::string& folder, std::uint32_t bits) {
+PictureFormat picture_format(const std::string& name) {
+    for (const auto& [format, known] :
+         {std::pair{PictureFormat::png, "png"}, std::pair{PictureFormat::svg, "svg"}, std::pair{PictureFormat::pdf, "pdf"}}) {
+        if (name == known) {
+            return format;
+        }
+    }
+    throw Error("pictures are saved as png, svg or pdf, not as '" + name.substr(0, 40) + "'");
+}
+
+const char* mime_of(PictureFormat format) {
+    switch (format) {
+    case PictureFormat::svg:
+        return "image/svg+xml";
+    case PictureFormat::pdf:
+        return "application/pdf";
+    case PictureFormat::png:
+        break;
+    }
+    return "image/png";
+}
+
+std::string file_of(const picture& drawn, const std::string& folder, PictureFormat format) {
     const TemporaryFolder own(folder + "/picture-");
-    const std::string path = own.path("picture.png");
-    drawn.write_png(path, bits);
+    const std::string path = own.path("picture");
+    switch (format) {
+    case PictureFormat::png:
+        drawn.write_png(path);
+        break;
+    case PictureFormat::svg:
+        drawn.write_svg(path);
+        break;
+    case PictureFormat::pdf:
+        drawn.write_pdf(path);
+        break;
+    }
     return read_whole_file(path);
 }
 

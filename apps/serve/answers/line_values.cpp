@@ -1,4 +1,5 @@
 #include "line_values.hpp"
+#include "displaced.hpp"
 
 #include <apps/elvis/answers/sample_curve.hpp>
 #include <apps/elvis/answers/sample_table.hpp>
@@ -12,17 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-data displaced(const Served& served, const json& warp, std::uint32_t time_step, const task& watch) {
-    const std::string field = warp["field"], imaginary = warp.value("imaginary", "");
-    auto how = detail::sized<elvis_warp>();
-    how.time_step = time_step;
-    how.field = field.c_str();
-    how.imaginary = detail::or_null(imaginary);
-    how.factor = warp.value("factor", 1.0);
-    how.phase = warp.value("phase", 0.0);
-    return served.volume.warp(how, watch);
-}
-
 json element_json(const std::optional<commands::SampledBreak::Side>& side) { return side ? json(side->element) : json(); }
 
 } // namespace
@@ -33,10 +23,7 @@ json values_along(const Served& served, const Scene& scene, const LineWishes& wi
     for (const std::string& field : wishes.fields) {
         asked.fields.push_back(shown.expression(field));
     }
-    std::optional<data> warped;
-    if (scene.contains("warp")) {
-        warped = displaced(served, scene["warp"], asked.time_step, watch);
-    }
+    const std::optional<data> warped = displaced(served, scene, watch);
     const commands::SampleTable table = commands::sample(
         warped ? *warped : served.volume, commands::points_along({wishes.from, wishes.to}, wishes.count), asked, watch);
     json series = json::array();

@@ -16,9 +16,6 @@ constexpr int moving_quality = 75, full_quality = 92;
 /** From sent to shown. Beyond, fewer pixels go over the line; well below, more. */
 constexpr double slow_milliseconds = 250, quick_milliseconds = 80;
 constexpr std::uint32_t most_shrink = 8;
-/** An exact picture makes way for other sessions so often, then no more: else it might never be finished. */
-constexpr int most_yields = 5;
-
 constexpr std::chrono::milliseconds short_wait = FrameSchedule::rest / 4;
 /** Without work for so long, the thread finds the time to give memory back: of large pictures it is much. */
 constexpr int waits_before_tidying = 10;
@@ -80,6 +77,7 @@ void Session::changed(bool is_moving) {
     }
     m_n_yields = 0;
     cancel_outdated(now);
+    cancel_long_task();
     m_changed.notify_all();
 }
 
@@ -94,7 +92,9 @@ std::optional<FrameSchedule::Step> Session::next_step(Clock::time_point now) con
     return may_send ? m_schedule.next(now) : std::nullopt;
 }
 
-bool Session::has_work(Clock::time_point now) const { return !m_tasks.empty() || !m_later.empty() || next_step(now); }
+bool Session::has_work(Clock::time_point now) const {
+    return !m_tasks.empty() || !m_later.empty() || next_step(now) || may_do_long_task(now);
+}
 
 void Session::run(const std::stop_token& stop) {
     std::unique_lock lock(m_mutex);
@@ -117,17 +117,20 @@ void Session::run(const std::stop_token& stop) {
             draw(lock, *step);
         } else if (!m_later.empty()) {
             do_task(lock, m_later);
+        } else if (may_do_long_task(Clock::now())) {
+            do_long_task(lock);
         }
     }
 }
 
-Encoded Session::watched(const std::function<Encoded(const task& watch)>& work, const std::function<bool()>& must_stop) {
+Encoded Session::watched(const std::function<Encoded(const task& watch)>& work, const task& outer) {
+    const auto must_stop = [&] { return m_cancelled || (outer.is_cancelled && outer.is_cancelled()); };
     // At the second try, what is kept for later is gone.
     for (const bool is_first : {true, false}) {
         need_memory(*m_served, 0);
         MemoryWatch memory(*m_served);
         try {
-            return work({{}, [&] { return m_cancelled || must_stop() || memory.is_exceeded(); }});
+            return work({outer.progress, [&] { return must_stop() || memory.is_exceeded(); }});
         } catch (const elvis::error& error) {
             const bool is_cancelled = error.result() == ELVIS_ERROR_CANCELLED && (m_cancelled || !memory.is_exceeded());
             if (is_cancelled || (error.result() != ELVIS_ERROR_CANCELLED && error.result() != ELVIS_ERROR_OUT_OF_MEMORY)) {
@@ -151,7 +154,7 @@ void Session::do_task(std::unique_lock<std::mutex>& lock, std::deque<Task>& task
     Encoded result{Json::object(), {}};
     try {
         const Urgent urgent(*m_served, &tasks == &m_tasks);
-        result = watched([&](const elvis::task& watch) { return task.job(task.scene, watch); }, [] { return false; });
+        result = watched([&](const elvis::task& watch) { return task.job(task.scene, watch); }, {});
         message["type"] = "answer";
         message.update(result.facts);
     } catch (const std::exception& error) {
@@ -199,7 +202,7 @@ void Session::draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step
             [&](const task& watch) {
                 return is_exact ? draw_exactly(*m_served, scene, watch) : draw_for_screen(*m_served, scene, step, line, watch);
             },
-            yields);
+            {{}, yields});
     } catch (const cancelled&) {
         // Something else is wanted.
     } catch (const std::exception& what) {

@@ -6,6 +6,7 @@
 
 #include <apps/elvis/view/model/model.hpp>
 #include <apps/serve/answers/draw.hpp>
+#include <apps/serve/answers/film.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -34,6 +35,8 @@ using Member = const void*;
 
 /** Frames that were sent and not yet shown. */
 inline constexpr int most_unconfirmed = 2;
+/** What takes long makes way for other sessions so often, then no more: else it might never be finished. */
+inline constexpr int most_yields = 5;
 
 /** Functions are for any thread, and wait for none that draws. */
 class Session {
@@ -68,6 +71,18 @@ private:
         Scene scene;
         Job job;
     };
+    /** A task that makes way for pictures, and is begun again when they are drawn. */
+    struct LongTask {
+        Task task;
+        bool is_running = false, is_stopped = false;
+        /** How often it made way for other sessions. */
+        int n_yields = 0;
+        Clock::time_point not_before{};
+    };
+    struct BegunFilm {
+        Member from = nullptr;
+        std::shared_ptr<Film> film;
+    };
     struct Unconfirmed {
         std::uint64_t frame = 0;
         Clock::time_point sent;
@@ -76,7 +91,7 @@ private:
     using Handler = Json (Session::*)(const Json& message);
     static Handler handler_of(const std::string& type);
 
-    // Messages: session_messages.cpp, session_scene.cpp, session_overlay.cpp, session_answers.cpp.
+    // Messages: session_messages.cpp, session_scene.cpp, session_overlay.cpp, session_answers.cpp, session_long.cpp.
     Json resize(const Json& message);
     Json orbit(const Json& message);
     Json pan(const Json& message);
@@ -107,6 +122,11 @@ private:
     Json undecided(const Json& message);
     Json save_scene(const Json& message);
     Json save_picture(const Json& message);
+    Json integrate(const Json& message);
+    Json extrema(const Json& message);
+    Json film(const Json& message);
+    Json film_picture(const Json& message);
+    Json stop_long(const Json& message);
     Json shown(const Json& message);
     /** Throws Error if there would be nothing to see. */
     void move_camera(const Camera& camera);
@@ -130,6 +150,13 @@ private:
     void change_items(const std::string& what, Scene&& scene);
     /** `is_awaited`: before the next picture. */
     void post(const Json& message, std::string activity, Job job, bool is_awaited = true);
+    /** Throws Error if there is one already. */
+    void post_long(const Json& message, std::string activity, Job job);
+    void need_no_film() const;
+    /** What takes long, and the film. */
+    void stop_long_of(Member asker);
+    /** Of a picture that is saved. */
+    std::array<std::uint32_t, 2> saved_size(const Json& message) const;
     view::ItemId item_of(const Json& message) const;
     /** What a message names, or what the scene shows. */
     std::string field_of(const Json& message) const;
@@ -154,9 +181,15 @@ private:
     std::optional<FrameSchedule::Step> next_step(Clock::time_point now) const;
     bool has_work(Clock::time_point now) const;
     /** Work that is stopped when something else is wanted, and where it takes too much memory. Without the lock. */
-    Encoded watched(const std::function<Encoded(const task& watch)>& work, const std::function<bool()>& must_stop);
+    Encoded watched(const std::function<Encoded(const task& watch)>& work, const task& outer);
     /** These open the lock while they work. */
     void do_task(std::unique_lock<std::mutex>& lock, std::deque<Task>& tasks);
+    void do_long_task(std::unique_lock<std::mutex>& lock);
+    /** Not while things move. */
+    bool may_do_long_task(Clock::time_point now) const;
+    void cancel_long_task();
+    /** Of a task whose asker is told now and then how far it has come. */
+    std::function<void(double, const char*)> progress_of(const Task& task);
     void draw(std::unique_lock<std::mutex>& lock, const FrameSchedule::Step& step);
     void send_frame(const FrameSchedule::Step& step, Encoded&& drawn, const Json& told);
     void cancel_outdated(Clock::time_point now);
@@ -183,6 +216,9 @@ private:
     FrameSchedule m_schedule{20};
     /** Before the next picture, and when no picture is wanted. */
     std::deque<Task> m_tasks, m_later;
+    /** One at a time. */
+    std::optional<LongTask> m_long;
+    std::optional<BegunFilm> m_film;
     std::deque<Unconfirmed> m_unconfirmed;
     std::optional<FrameSchedule::Step> m_drawing;
     std::uint64_t m_frame = 0;

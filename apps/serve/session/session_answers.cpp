@@ -12,7 +12,6 @@ namespace elvis::serve {
 
 namespace {
 
-constexpr std::uint64_t most_saved_pixels = 64u << 20u;
 constexpr std::size_t most_tasks = 16;
 constexpr std::uint32_t most_line_points = 5000, usual_line_points = 500;
 constexpr std::size_t most_line_fields = 16;
@@ -27,6 +26,9 @@ void Session::post(const Json& message, std::string activity, Job job, bool is_a
     tasks.push_back({m_asker, {{"id", message.value("id", Json())}}, std::move(activity), m_model.scene(), std::move(job)});
     // Somebody waits for the answer; the exact picture is drawn again.
     m_cancelled = m_cancelled || (is_awaited && m_drawing && m_drawing->stage == FrameStage::exact);
+    if (is_awaited) {
+        cancel_long_task();
+    }
     m_changed.notify_all();
 }
 
@@ -115,18 +117,6 @@ Session::Json Session::undecided(const Json& message) {
 Session::Json Session::save_scene(const Json&) {
     const std::string text = m_served->library_scene(m_model.scene()).text(m_served->folder);
     return {{"scene", Json::parse(text)}, {"text", text}};
-}
-
-Session::Json Session::save_picture(const Json& message) {
-    const std::array<std::uint32_t, 2> size = size_of(message);
-    if (std::uint64_t{size[0]} * size[1] > most_saved_pixels) {
-        throw Error("the picture would have more than 64 million pixels");
-    }
-    check_size(m_model.scene(), size);
-    post(message, "drawing a picture to save", [served = m_served, size](const Scene& scene, const task& watch) {
-        return draw_exactly(*served, view::resized(scene, size), watch);
-    });
-    return {};
 }
 
 } // namespace elvis::serve

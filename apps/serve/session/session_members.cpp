@@ -49,6 +49,7 @@ void Session::detach(Member member) {
     for (std::deque<Task>* tasks : {&m_tasks, &m_later}) {
         std::erase_if(*tasks, [member](const Task& task) { return task.from == member; });
     }
+    stop_long_of(member);
     m_companions.erase(member);
     if (member == m_page) {
         m_page = nullptr;

@@ -42,6 +42,11 @@ Session::Handler Session::handler_of(const std::string& type) {
                                                             {"undecided", &Session::undecided},
                                                             {"save scene", &Session::save_scene},
                                                             {"save picture", &Session::save_picture},
+                                                            {"integrate", &Session::integrate},
+                                                            {"extrema", &Session::extrema},
+                                                            {"film", &Session::film},
+                                                            {"film picture", &Session::film_picture},
+                                                            {"stop", &Session::stop_long},
                                                             {"shown", &Session::shown}};
     const auto found = handlers.find(type);
     if (found == handlers.end()) {

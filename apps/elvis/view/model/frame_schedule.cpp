@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace elvis::view {
 
@@ -15,8 +16,17 @@ constexpr double most_of_budget = 0.7;
  */
 constexpr std::uint32_t coarsest_with_lines = 4;
 
-/** What a larger picture once took is forgotten after so many of one size: it may have been slow for another reason. */
-constexpr int most_alike = 20;
+/**
+ * Of the budget: below, the next size is tried though nothing is known of it. It has 1.8 to 4 times the pixels, and takes less
+ * than so many times as long, for a part of the time goes with no pixel.
+ */
+constexpr double worth_a_trial = 0.64;
+/** Of the mean time of pictures of a size: one that is slow by chance is not enough for another size. */
+constexpr double newest_share = 0.3;
+/** Of the budget: the first picture of a larger size makes its buffers, too, and is not what the size is judged by. */
+constexpr double first_may_take = 3;
+/** Pictures of one size before a trial, at most: after some that were too slow. */
+constexpr int most_patience = 320;
 
 } // namespace
 
@@ -70,8 +80,15 @@ void FrameSchedule::choose_lines(const Step& drawn, double milliseconds) {
         m_full_with_lines = had_lines || m_full_with_lines == 0 ? milliseconds : m_full_with_lines;
     } else if (drawn.with_lines && drawn.divisor >= coarsest_with_lines && milliseconds > m_budget) {
         m_with_lines = false;
+    } else if (!drawn.with_lines && m_n_alike >= m_line_patience) {
+        // They may not have been what was slow.
+        m_with_lines = true;
+        m_line_patience = std::min(most_patience, 2 * m_line_patience);
+    } else if (drawn.with_lines && m_n_alike > most_alike) {
+        m_line_patience = most_alike;
     }
     if (m_with_lines != had_lines) {
+        m_n_alike = 0;
         m_last.reset();
         m_other_size.reset();
     }
@@ -92,14 +109,32 @@ double FrameSchedule::expected(std::uint32_t divisor, const Sample& drawn) const
     return std::max(0.0, drawn.milliseconds + slope * (share(divisor) - share(drawn.divisor)));
 }
 
-void FrameSchedule::choose_divisor(const Sample& drawn) {
-    m_n_alike = m_last && m_last->divisor == drawn.divisor ? m_n_alike + 1 : 0;
-    if (m_last && m_n_alike == 0) {
+void FrameSchedule::choose_divisor(Sample drawn) {
+    const bool is_larger = m_last && drawn.divisor < m_last->divisor;
+    const bool is_slow = drawn.milliseconds > m_budget && drawn.milliseconds <= first_may_take * m_budget;
+    if (is_larger && is_slow && !std::exchange(m_is_second, true)) {
+        return;
+    }
+    m_is_second = false;
+    const bool is_alike = m_last && m_last->divisor == drawn.divisor;
+    m_n_alike = is_alike ? m_n_alike + 1 : 0;
+    if (is_alike) {
+        drawn.milliseconds = newest_share * drawn.milliseconds + (1 - newest_share) * m_last->milliseconds;
+    } else {
         m_other_size = m_last;
-    } else if (m_n_alike > most_alike && m_other_size && m_other_size->divisor < drawn.divisor) {
+    }
+    if (m_n_alike > most_alike) {
         m_other_size.reset();
     }
     m_last = drawn;
+    const std::uint32_t wanted = wanted_divisor(drawn);
+    if (drawn.divisor == m_divisor) {
+        choose_patience(wanted);
+    }
+    m_divisor = wanted;
+}
+
+std::uint32_t FrameSchedule::wanted_divisor(const Sample& drawn) const {
     // Fewer pixels than that are no use: the rest takes its time.
     constexpr double hardly_slower = 1.3;
     const double least = hardly_slower * expected(divisors.back(), drawn);
@@ -110,12 +145,33 @@ void FrameSchedule::choose_divisor(const Sample& drawn) {
     // All pixels come with lines.
     const auto first = divisors.begin() + (m_with_lines ? 0 : 1);
     const auto found = std::find_if(first, divisors.end(), fits);
-    std::uint32_t wanted = found == divisors.end() ? divisors.back() : *found;
-    if (wanted < m_divisor && drawn.divisor != m_divisor) {
-        // A picture of another size tells less than one of this.
-        wanted = m_divisor;
+    const std::uint32_t wanted = found == divisors.end() ? divisors.back() : *found;
+    if (wanted > m_divisor) {
+        return wanted;
     }
-    m_divisor = wanted;
+    if (drawn.divisor != m_divisor) {
+        // A picture of another size tells less than one of this.
+        return m_divisor;
+    }
+    const auto now = std::find(first, divisors.end(), m_divisor);
+    const bool has_larger = now != first && now != divisors.end();
+    return wanted == m_divisor && has_larger && is_worth_a_trial(*(now - 1), drawn) ? *(now - 1) : wanted;
+}
+
+bool FrameSchedule::is_worth_a_trial(std::uint32_t larger, const Sample& drawn) const {
+    const bool may_fit = m_other_size ? expected(larger, drawn) <= m_budget : drawn.milliseconds <= worth_a_trial * m_budget;
+    return may_fit && m_n_alike >= m_patience;
+}
+
+void FrameSchedule::choose_patience(std::uint32_t wanted) {
+    if (wanted > m_divisor) {
+        m_patience = std::clamp(2 * m_patience, most_alike, most_patience);
+        m_went_up = false;
+    } else if (wanted < m_divisor) {
+        m_went_up = true;
+    } else if (m_went_up && m_n_alike > most_alike) {
+        m_patience = first_patience;
+    }
 }
 
 } // namespace elvis::view

@@ -30,6 +30,9 @@ enum class FrameStage {
  *     step = next(); if there is one: draw its stage; then drawn()
  *     while it is drawn: if is_outdated(step), cancel it and take the next one
  *
+ * The size of moving pictures follows from what the last ones took; a larger one is tried now and then where it may be quick
+ * enough, the more seldom the more often it was not.
+ *
  * Without release() things have come to rest when nothing changes for `rest`. Where all pixels would take longer than a moving
  * picture may, fewer come first also at rest: something to look at meanwhile.
  */
@@ -81,7 +84,11 @@ private:
     };
     /** What another size would take. */
     double expected(std::uint32_t divisor, const Sample& drawn) const;
-    void choose_divisor(const Sample& drawn);
+    void choose_divisor(Sample drawn);
+    std::uint32_t wanted_divisor(const Sample& drawn) const;
+    /** What another size takes is known only by drawing it. */
+    bool is_worth_a_trial(std::uint32_t larger, const Sample& drawn) const;
+    void choose_patience(std::uint32_t wanted);
     /** Whether lines are worth their time while things move. */
     void choose_lines(const Step& drawn, double milliseconds);
 
@@ -95,6 +102,16 @@ private:
     std::optional<Sample> m_last, m_other_size;
     /** Pictures of one size, before the last one. */
     int m_n_alike = 0;
+    /** Pictures of one size before a trial: few, and ever more where larger ones were too slow. */
+    static constexpr int first_patience = 3;
+    int m_patience = first_patience;
+    /** What another size, or lines, once took is forgotten after so many: they may have been slow for another reason. */
+    static constexpr int most_alike = 20;
+    int m_line_patience = most_alike;
+    /** The next picture is the second one of a larger size. */
+    bool m_is_second = false;
+    /** The last change of the size was to more pixels. */
+    bool m_went_up = false;
     bool m_with_lines = true;
     /** What all pixels took the last time that lines were not given up. */
     double m_full_with_lines = 0;
