@@ -51,7 +51,7 @@ Expressions integrand_of(const RuntimeVolume& volume, const IntegralRequest& req
 
 /** What another volume's elements hold is smooth in these alone: dividing finds their faces slowly, and each point takes a
  * search. */
-constexpr unsigned most_depth_by_place = 2;
+constexpr unsigned most_depth_by_place = 1;
 
 bool is_by_place(const RuntimeVolume& volume, const Expressions& expressions) {
     return std::ranges::any_of(expressions, [&](const auto& expression) {

@@ -34,9 +34,9 @@ Vector3 carried(const Vector3& side, const Frame& from, const Frame& to) {
 }
 
 Vector3 first_side(const Vector3& direction) {
-    const auto smallest = std::ranges::min_element(direction, {}, [](double part) { return std::abs(part); });
-    Vector3 axis{};
-    axis[static_cast<std::size_t>(smallest - direction.begin())] = 1;
+    // Not by the least component: of several that are zero rounding would decide.
+    constexpr double along = 0.9;
+    const Vector3 axis = std::abs(direction[2]) < along ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
     return unit(cross(axis, direction));
 }
 

@@ -15,9 +15,9 @@
 namespace elvis {
 
 /**
- * Of each point of the line a direction of length 1 across it, in which the ribbon lies. At the seed it lies across the axis
- * that is farthest from the line's direction. `flow`: along which the line was traced, with its spin, which is where
- * `TracePoint::turn` comes from.
+ * Of each point of the line a direction of length 1 across it, in which the ribbon lies. At the seed it lies across the z
+ * axis, or across the x axis where the line goes along z. `flow`: along which the line was traced, with its spin, which is
+ * where `TracePoint::turn` comes from.
  */
 std::vector<Vector3> ribbon_sides(const Flow& flow, const Streamline& line);
 

@@ -61,7 +61,8 @@ TEST_CASE("The tube about a straight streamline is a cylinder") {
 TEST_CASE("The ribbon about the axis of a rotation is a helicoid") {
     const context library(own_plugins());
     const TemporaryFolder folder;
-    const data volume = library.open(convert(library, folder, box));
+    const data volume =
+        library.open(convert(library, folder, R"({"generator": 1, "mesh": "box", "elements": [3, 3, 3], "field": "sphere"})"));
     for (const auto& [precision, tolerance] : {std::pair{"float32", 2e-4}, std::pair{"float64", 2e-4}}) {
         // It lies along y at the seed, and turns by a radian in a length of 0.4.
         const picture ribbon = volume.render(with_surface(

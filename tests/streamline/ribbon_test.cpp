@@ -17,7 +17,7 @@ namespace {
 constexpr const char* shapes[] = {"hexahedron", "prism", "tetrahedron", "pyramid", "mixed"};
 
 GeneratedVolume bent_box(const std::string& shape) {
-    return GeneratedVolume(test::shape_key(shape) + R"("mesh": "waves", "elements": [3, 3, 3], "geometry_order": 2,
+    return GeneratedVolume(test::shape_key(shape) + R"("mesh": "waves", "elements": [4, 3, 3], "geometry_order": 2,
                                                        "amplitude": 0.05, "order": 4, "field": "sphere")");
 }
 
@@ -50,9 +50,10 @@ TEST_CASE("A ribbon in a body that rotates and moves along its axis is carried b
         std::cout << shape << ": a ribbon that turns by " << turned << " is off by " << off << ", from across its line by "
                   << across << '\n';
         REQUIRE(turned > 5);
-        CHECK(off < 1e-5);
+        CHECK(off < 5e-6);
         CHECK(across < 1e-10);
-        CHECK(largest_step < 0.06);
+        // Bending and turning by three degrees each.
+        CHECK(largest_step < 0.08);
     }
 }
 
