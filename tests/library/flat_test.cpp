@@ -165,7 +165,7 @@ TEST_CASE("Arrows stand on elements of two dimensions") {
         }
         std::cout << n_arrow << " pixels of arrows, " << n_flat << " of the plane\n";
         CHECK(has_values);
-        CHECK(n_arrow > 200);
+        CHECK(n_arrow > 100);
         CHECK(n_flat > 2 * n_arrow);
     }
 }

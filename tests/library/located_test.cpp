@@ -123,11 +123,11 @@ TEST_CASE("Where the other volume is not, there is no value, and pixels say so")
     const data both = one.join({{"a", &half}});
     const picture drawn = both.render(showing(library, R"({"type": "plane", "plane": [0, 0, 1, 0], "field": "p - a.p"})"));
     const Values found = values_of(drawn);
-    CHECK(found.n_hit > 1000);
+    CHECK(found.n_hit > 600);
     CHECK(found.n_nan > found.n_hit / 3);
     CHECK(found.n_nan < 2 * found.n_hit / 3);
     CHECK(found.n_flagged == found.n_nan);
-    CHECK(drawn.info().n_nan_pixels == found.n_nan);
+    CHECK_THAT(drawn.stats(), Catch::Contains("\"nan_pixels\": " + std::to_string(found.n_nan)));
     CHECK(found.largest < 1e-13);
     CHECK(std::isnan(both.probe({-0.5, 0.1, 0.2}, {"a.p"}).values[0]));
     auto wanted = detail::sized<elvis_integration>();

@@ -54,7 +54,11 @@ def opens_by_dialog(window):
 def orbits(window):
     before = window.screen()["scene"]["camera"]
     stages = set()
-    window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: stages.add(screen["stage"]))
+    # Where others are at work, pictures may all come late.
+    for _ in range(8):
+        window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: stages.add(screen["stage"]))
+        if "moving" in stages:
+            break
     window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != before["eye"], "the camera to move")
     screen = window.settle()
     after = screen["scene"]["camera"]
