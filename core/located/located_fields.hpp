@@ -30,15 +30,18 @@ public:
                   std::size_t n_time_steps);
 
     const std::vector<FieldInfo>& fields() const override { return m_fields; }
-    /** Where several elements hold a position, the first of them counts. */
+    /** Where several elements hold a position, one of them counts: that whose box has its middle nearest. */
     void evaluate(std::uint32_t field, std::uint32_t time_step, std::span<const double> positions, std::span<double> values,
                   std::span<double> gradients) const override;
 
 private:
     std::uint32_t step_of(std::uint32_t time_step) const;
+    std::optional<ReferencePoint> place_of(const Vector3& position) const;
 
     RuntimeVolume m_volume;
     ElementFinder m_finder;
+    /** Of the elements' boxes. */
+    std::vector<Vector3> m_middles;
     std::optional<std::uint32_t> m_time_step;
     std::vector<FieldInfo> m_fields;
 };

@@ -12,7 +12,7 @@ namespace elvis {
 namespace {
 
 /** Of all elements together, about, where there are not more elements. */
-constexpr double n_samples = 30000;
+constexpr double n_samples = 5000;
 /** Of a value found by place, relative to the field's largest: of mappings inverted to about 1e-15, and of the basis. */
 constexpr double relative_rounding = 1e-14;
 
