@@ -82,7 +82,7 @@ JoinArgument parse_join(const std::string& text) {
 void add_join(CLI::App& command, std::vector<std::string>& joins) {
     command
         .add_option("--join", joins,
-                    "NAME=FILE[@STEP]: fields of a volume with the same elements, as NAME.FIELD; NAME=@STEP: of this one at "
+                    "NAME=FILE[@STEP]: fields of another volume, as NAME.FIELD; NAME=@STEP: of this one at "
                     "another time step (repeatable)")
         ->allow_extra_args(false);
 }

@@ -76,6 +76,9 @@ void Data::forget_work() {
 
 std::shared_ptr<Data> Data::warped(const SceneWarp& warp, std::uint32_t time_step) {
     if (!m_warped || m_warped->warp != warp || m_warped->time_step != time_step) {
+        if (std::ranges::any_of(volume.fields(), &FieldInfo::is_by_place)) {
+            throw Error(volume.path(), "has fields of another volume that are found by place: it cannot be displaced (warp)");
+        }
         if (!source) {
             throw Error(volume.path(), "only native volumes, and what is converted to them, can be displaced (warp)");
         }

@@ -4,6 +4,8 @@
 #include <core/arrows/shape_candidates.hpp>
 #include <core/extract/extraction.hpp>
 #include <core/probe/cpu_evaluator.hpp>
+#include <core/volume/boundary/element_faces.hpp>
+#include <core/volume/element/flat_height.hpp>
 
 #include <elvis/native/space.hpp>
 
@@ -34,6 +36,23 @@ elvis_shape shape_of(const RuntimeVolume& volume, std::uint64_t element) {
     return std::prev(std::ranges::upper_bound(volume.classes(), element, {}, &ClassInfo::first_element))->shape;
 }
 
+/** In order around it; of an element of two dimensions its own. */
+std::vector<Vector3> corners_of(const ElementFace& face, native::Shape shape) {
+    std::vector<Vector3> corners;
+    const auto add = [&](int corner) {
+        const native::Point xi = native::corner(shape, corner);
+        corners.push_back({xi[0], xi[1], xi[2]});
+    };
+    if (native::dimension(shape) == 2) {
+        for (int corner = 0; corner < native::n_corners(shape); ++corner) {
+            add(corner);
+        }
+    } else {
+        std::ranges::for_each(native::face_corners(shape, static_cast<int>(face.local_face)), add);
+    }
+    return corners;
+}
+
 Vector3 position_of(const RuntimeVolume& volume, const ReferencePoint& place) {
     Vector3 position{};
     volume.evaluate_mapping(place.element, place.xi, position, {});
@@ -62,6 +81,9 @@ std::vector<ArrowSeed> ArrowSeeds::found(const std::vector<Vector3>& positions) 
 }
 
 std::vector<ArrowSeed> ArrowSeeds::in_volume(const std::array<double, 6>& bounds) const {
+    if (m_volume.dimension() == 2 && !flat_height(m_volume)) {
+        return on_faces(surface_elements(m_volume));
+    }
     std::array<std::vector<double>, 3> steps;
     double n = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -124,12 +146,7 @@ std::vector<ArrowSeed> ArrowSeeds::on_faces(const std::vector<ElementFace>& face
     std::vector<ArrowSeed> seeds;
     for (const ElementFace& face : faces) {
         m_control.check();
-        const auto shape = static_cast<native::Shape>(shape_of(m_volume, face.element));
-        std::vector<Vector3> corners;
-        for (const int corner : native::face_corners(shape, static_cast<int>(face.local_face))) {
-            const native::Point xi = native::corner(shape, corner);
-            corners.push_back({xi[0], xi[1], xi[2]});
-        }
+        const std::vector<Vector3> corners = corners_of(face, static_cast<native::Shape>(shape_of(m_volume, face.element)));
         double longest = 0;
         const Vector3 first = position_of(m_volume, {face.element, corners[0]});
         for (const Vector3& corner : corners) {

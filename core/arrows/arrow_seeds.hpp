@@ -32,13 +32,16 @@ public:
     /** `spacing`: in the world, > 0. */
     ArrowSeeds(const RuntimeVolume& volume, double spacing, const TaskControl& control);
 
-    /** Points of a cubic lattice about the middle of the bounds. */
+    /**
+     * Points of a cubic lattice about the middle of the bounds; of a square one in a volume of two dimensions in a plane of
+     * constant z. On a surface in space they are as on_faces() has them.
+     */
     std::vector<ArrowSeed> in_volume(const std::array<double, 6>& bounds) const;
     /** Points of a square lattice about the bounds' middle as seen along the plane's normal. */
     std::vector<ArrowSeed> on_plane(const CutPlane& plane, const std::array<double, 6>& bounds) const;
     /**
-     * Points of faces of which no two are nearer to each other than the spacing, and to one of which every point is nearer than
-     * about 1.2 of it (even_points.hpp).
+     * Points of faces, or of elements of two dimensions, of which no two are nearer to each other than the spacing, and to one
+     * of which every point is nearer than about 1.2 of it (even_points.hpp).
      */
     std::vector<ArrowSeed> on_faces(const std::vector<ElementFace>& faces) const;
     /** Likewise, of a shape where it lies in the volume; nothing for shapes that add_shape() does not know. */

@@ -9,6 +9,7 @@
 #include <core/base/overloaded.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/cpu_evaluator.hpp>
+#include <core/render/field/chosen_values.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/scene/surface_distance.hpp>
 #include <core/scene/threshold.hpp>
@@ -112,7 +113,7 @@ private:
         const auto refuse = [&]() -> std::vector<ArrowSeed> {
             throw Error("arrows",
                         "cannot stand on '" + under->name +
-                            "': wireframes, Bezier patches, streamlines, pathlines and other arrows can not be under them");
+                            "': wireframes, tubes and other arrows can not be under them, nor ribbons that are not drawn");
         };
         return std::visit(
             Overloaded{[&](const CutPlane& plane) { return seeds.on_plane(plane, m_bounds); },
@@ -179,22 +180,7 @@ private:
     std::vector<double> values_of(const FieldChoice& field, const std::vector<ArrowSeed>& seeds) {
         std::vector<ReferencePoint> places;
         std::ranges::transform(seeds, std::back_inserter(places), &ArrowSeed::place);
-        std::vector<double> values;
-        if (field.expression) {
-            for (const ExpressionSample& sample : m_evaluator.evaluate(field.expression, m_scene.time_step, places, false)) {
-                values.push_back(sample.value);
-            }
-            return values;
-        }
-        for (const FieldSample& sample : m_evaluator.evaluate(field.field, m_scene.time_step, places, false)) {
-            double square = 0;
-            for (const double component : sample.values) {
-                square += component * component;
-            }
-            values.push_back(field.component < 0 ? std::sqrt(square)
-                                                 : sample.values[static_cast<std::size_t>(field.component)]);
-        }
-        return values;
+        return chosen_values(m_evaluator, field, m_scene.time_step, places);
     }
 
     const Scene& m_scene;
@@ -208,9 +194,6 @@ void need_points(const RuntimeVolume& volume) {
     if (!volume.has_evaluation() || volume.is_cut()) {
         throw Error(volume.path(), "the plugin " + volume.plugin().id() +
                                        " does not evaluate whole elements on the CPU, in which arrows are placed");
-    }
-    if (volume.dimension() == 2) {
-        throw Error(volume.path(), "is two-dimensional: arrows stand in volumes");
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <core/base/overloaded.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -47,6 +48,36 @@ void add_cone(const Cone& cone, Candidates& candidates) {
     candidates.add_rings(cone.from, unit(axis), curve);
 }
 
+/** n + 1 points a direction, so many that none is farther from the next than the step along the net of control points. */
+void add_patch(const BezierPatch& patch, Candidates& candidates) {
+    double longest = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        double along = 0, across = 0;
+        for (std::size_t j = 0; j < 3; ++j) {
+            along += length(minus(patch.points[4 * i + j + 1], patch.points[4 * i + j]));
+            across += length(minus(patch.points[4 * (j + 1) + i], patch.points[4 * j + i]));
+        }
+        longest = std::max({longest, along, across});
+    }
+    const double n = std::max(1.0, std::ceil(longest / candidates.step()));
+    need_few(n * n);
+    for (double i = 0; i <= n; ++i) {
+        for (double j = 0; j <= n; ++j) {
+            candidates.add(patch.at(i / n, j / n));
+        }
+    }
+}
+
+void add_piece(const RibbonSet::Piece& piece, Candidates& candidates) {
+    const auto& [a, b, c, d] = piece;
+    const double longest = std::max({length(minus(b, a)), length(minus(d, c)), length(minus(c, a)), length(minus(d, b))});
+    const double n = std::max(1.0, std::ceil(longest / candidates.step()));
+    need_few(n * n);
+    for (const std::vector<double>& weights : lattice_of_face(4, static_cast<int>(n))) {
+        candidates.add(weighted({a, b, d, c}, weights));
+    }
+}
+
 } // namespace
 
 bool add_shape(const CutShape& shape, Candidates& candidates) {
@@ -74,6 +105,21 @@ bool add_shape(const CutShape& shape, Candidates& candidates) {
                        const TriangleMesh& mesh = *surface.mesh;
                        for (const auto& [a, b, c] : mesh.triangles) {
                            candidates.add_triangle({mesh.points[a], mesh.points[b], mesh.points[c]});
+                       }
+                       return true;
+                   },
+                   [&](const BezierSurface& surface) {
+                       for (const BezierPatch& patch : surface.mesh->patches) {
+                           add_patch(patch, candidates);
+                       }
+                       return true;
+                   },
+                   [&](const RibbonSurface& surface) {
+                       if (!surface.ribbons) {
+                           return false;
+                       }
+                       for (const RibbonSet::Piece& piece : surface.ribbons->pieces) {
+                           add_piece(piece, candidates);
                        }
                        return true;
                    },

@@ -12,7 +12,7 @@
 
 namespace elvis {
 
-/** Covers a sphere, cylinder, cone, torus or triangles; whether the shape is one of these. */
+/** Covers a sphere, cylinder, cone, torus, triangles, Bezier patches or ribbons; whether the shape is one of these. */
 bool add_shape(const CutShape& shape, Candidates& candidates);
 
 /** An expression in x, y and z that is zero on a quadric or implicit surface; nothing for other shapes. */

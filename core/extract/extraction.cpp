@@ -82,6 +82,7 @@ public:
         std::shared_ptr<const Expression> contour;
         if (!m_request.contours.empty()) {
             contour = std::make_shared<const Expression>(m_request.contour_field, volume.fields(), volume.dimension());
+            std::ranges::for_each(contour->fields(), [&](std::uint32_t field) { volume.need_own(field); });
             if (!contour->gradient()) {
                 throw Error(m_request.contour_field, "has no gradient that could be evaluated, which contours need");
             }

@@ -116,6 +116,7 @@ LevelSet level_set(const RuntimeVolume& volume, const IntegralRequest& request) 
     const std::string text = is_plane ? plane_text(request.plane) : request.level_field;
     LevelSet level{std::make_shared<const Expression>(text, volume.fields(), volume.dimension()),
                    is_plane ? -request.plane[3] : request.isovalue};
+    std::ranges::for_each(level.expression->fields(), [&](std::uint32_t field) { volume.need_own(field); });
     if (!level.expression->gradient()) {
         throw Error(text, "has no gradient that could be evaluated, which integrals over its isosurfaces need");
     }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <thread>
 
@@ -48,6 +49,17 @@ Expressions integrand_of(const RuntimeVolume& volume, const IntegralRequest& req
     return expressions;
 }
 
+/** What another volume's elements hold is smooth in these alone: dividing finds their faces slowly, and each point takes a
+ * search. */
+constexpr unsigned most_depth_by_place = 1;
+
+bool is_by_place(const RuntimeVolume& volume, const Expressions& expressions) {
+    return std::ranges::any_of(expressions, [&](const auto& expression) {
+        return std::ranges::any_of(expression->fields(),
+                                   [&](std::uint32_t field) { return volume.fields()[field].is_by_place; });
+    });
+}
+
 Integrand::Kind kind_of(const Expressions& expressions) {
     return expressions.empty()       ? Integrand::Kind::one
            : expressions.size() == 1 ? Integrand::Kind::scalar
@@ -58,7 +70,8 @@ Integrand::Kind kind_of(const Expressions& expressions) {
 class Rules {
 public:
     Rules(const RuntimeVolume& volume, const IntegralRequest& request, const Expressions& integrand)
-        : m_is_boundary(request.domain == IntegralRequest::Domain::boundary), m_is_flux(request.is_flux) {
+        : m_is_boundary(request.domain == IntegralRequest::Domain::boundary), m_is_flux(request.is_flux),
+          m_is_by_place(is_by_place(volume, integrand)) {
         for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
             m_rules.push_back(of_class(volume, index, integrand));
         }
@@ -91,13 +104,14 @@ private:
         // What is not exact begins with less, and is divided.
         rule.n_points =
             rule.is_value_exact && rule.is_measure_exact ? rule.n_points : std::min(rule.n_points, most_adaptive_points);
+        rule.most_depth = m_is_by_place ? most_depth_by_place : rule.most_depth;
         rule.is_value_exact = rule.is_value_exact && degree + of_measure <= 2 * rule.n_points - 3;
         return rule;
     }
 
     static constexpr unsigned default_degree = 4;
     static constexpr unsigned most_adaptive_points = 16;
-    bool m_is_boundary, m_is_flux;
+    bool m_is_boundary, m_is_flux, m_is_by_place;
     std::vector<PartRule> m_rules;
 };
 
@@ -105,7 +119,7 @@ private:
 class Integration {
 public:
     Integration(const RuntimeVolume& volume, const IntegralRequest& request, const TaskControl& control)
-        : m_request(request), m_control(control), m_expressions(integrand_of(volume, request)),
+        : m_volume(volume), m_request(request), m_control(control), m_expressions(integrand_of(volume, request)),
           m_sampler(volume, m_expressions, request.time_step), m_integrand(m_sampler, kind_of(m_expressions)),
           m_rules(volume, request, m_expressions), m_parts(domain_parts(volume, request, control)) {
         const bool has_level =
@@ -127,11 +141,20 @@ public:
         }
         sum(chosen, {}, "integrating");
         const Integral first = total();
+        const bool has_searches = is_by_place(m_volume, m_expressions);
+        if (has_searches && std::isnan(first.value)) {
+            throw Error(m_request.field,
+                        "has no integral: parts of what it is integrated over lie outside of the volume in which "
+                        "its fields are found by place");
+        }
         const auto n_parts = static_cast<double>(std::max<std::uint64_t>(1, first.n_parts));
-        const SumTolerance tolerance{m_request.tolerance * m_size / n_parts, m_request.tolerance * first.measure / n_parts};
+        SumTolerance tolerance{m_request.tolerance * m_size / n_parts, m_request.tolerance * first.measure / n_parts};
         std::erase_if(chosen, [&](std::size_t index) {
             return m_sums[index].value_error <= tolerance.value && m_sums[index].measure_error <= tolerance.measure;
         });
+        if (has_searches && m_level) {
+            tolerance.value = std::numeric_limits<double>::infinity();
+        }
         sum(chosen, tolerance, "refining");
         return total();
     }
@@ -193,6 +216,7 @@ private:
         return integral;
     }
 
+    const RuntimeVolume& m_volume;
     const IntegralRequest& m_request;
     const TaskControl& m_control;
     Expressions m_expressions;

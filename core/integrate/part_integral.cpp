@@ -10,7 +10,7 @@ namespace {
 
 /** Points that the second of two rules has more than the first. */
 constexpr unsigned more_points = 2;
-constexpr unsigned most_depth = 12;
+constexpr unsigned most_level_depth = 12;
 /** Of rules on planes and isosurfaces: orders that reach 1e-9 on smooth surfaces with few divisions. */
 constexpr unsigned level_points = 6;
 
@@ -88,7 +88,7 @@ PartSums integrate_part(const Integrand& integrand, const DomainPart& part, cons
         sums.measure_error = rule.is_measure_exact ? 0 : sums.measure_error;
         return sums;
     };
-    return adaptive_sum<GaussBox>({GaussBox{{}, part.part.dimension(), 0}}, of_box, tolerance, most_depth);
+    return adaptive_sum<GaussBox>({GaussBox{{}, part.part.dimension(), 0}}, of_box, tolerance, rule.most_depth);
 }
 
 PartSums integrate_level(const Integrand& integrand, const DomainPart& part, const ElementSampler& level, double isovalue,
@@ -125,7 +125,7 @@ PartSums integrate_level(const Integrand& integrand, const DomainPart& part, con
         const Sums coarse = sums_of(rule, level_points);
         return compared(sums_of(rule, level_points + more_points), coarse);
     };
-    const PartSums sums = adaptive_sum<LevelBox>(boxes, of_box, tolerance, most_depth);
+    const PartSums sums = adaptive_sum<LevelBox>(boxes, of_box, tolerance, most_level_depth);
     for (const LevelFunction& function : functions) {
         n_evaluations += function.n_evaluations();
     }

@@ -22,6 +22,8 @@ struct PartRule {
     unsigned n_points = 1;
     /** The integral's value, its measure: exact with so many points. */
     bool is_value_exact = false, is_measure_exact = false;
+    /** How often it is divided at most. */
+    unsigned most_depth = 12;
 };
 
 PartSums integrate_part(const Integrand& integrand, const DomainPart& part, const PartRule& rule, const SumTolerance& tolerance,

@@ -9,6 +9,7 @@
 #include <core/parts/all_boxes.hpp>
 #include <core/parts/drawn_part.hpp>
 #include <core/parts/fold.hpp>
+#include <core/parts/fold_lic.hpp>
 #include <core/parts/part_picture.hpp>
 #include <core/parts/part_volume.hpp>
 #include <core/parts/whole_ranges.hpp>
@@ -55,6 +56,9 @@ std::set<std::uint32_t> fields_of(const FrameRequest& request) {
         if (const Isosurfaces* const isosurfaces = traits_of(surface.geometry).isosurfaces) {
             add(isosurfaces->field);
         }
+        if (surface.lic) {
+            std::ranges::for_each(surface.lic->vectors, add);
+        }
     }
     if (request.volume) {
         add(request.volume->field);
@@ -84,11 +88,16 @@ void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
         if (surface.outside) {
             refuse(scene, "a surface with a colour where it lies in no element");
         }
-        if (traits_of(surface.geometry).wires != nullptr) {
-            refuse(scene, "edges of elements as a surface of their own");
+        const WireFrame* const wires = traits_of(surface.geometry).wires;
+        if (wires != nullptr && wires->is_undeformed) {
+            refuse(scene, "edges without the warp");
         }
-        if (std::holds_alternative<ElementFaces>(surface.geometry)) {
+        if (std::holds_alternative<ElementFaces>(surface.geometry) ||
+            (wires != nullptr && std::holds_alternative<ElementFaces>(wires->faces))) {
             refuse(scene, "the faces of chosen elements");
+        }
+        if (surface.lic && surface.is_see_through()) {
+            refuse(scene, "line integral convolution with a threshold or with planes that cut the surface away");
         }
     }
 }
@@ -137,6 +146,8 @@ struct VolumeInParts::Impl {
     void share_ranges(const FrameRequest& request);
     Scene with_glyphs(const Scene& scene);
     std::vector<std::byte> draw_own(const FrameRequest& request);
+    Frame draw_folded(const FrameRequest& alone);
+    std::vector<double> shades(const FrameRequest& alone);
     std::vector<std::byte> draw_own_light(const FrameRequest& request, std::vector<double> depths);
     Frame draw_surfaces(const FrameRequest& request);
     void draw_light(const FrameRequest& request, PartsPicture& picture);
@@ -226,6 +237,27 @@ std::vector<std::byte> VolumeInParts::Impl::draw_own_light(const FrameRequest& r
     return bytes;
 }
 
+/** A picture of one surface: of the first process; elsewhere empty. */
+Frame VolumeInParts::Impl::draw_folded(const FrameRequest& alone) {
+    const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own(alone)));
+    return team.is_first() ? folded(alone, pictures, diagonal_of(ranges->bounds()), precision) : Frame{};
+}
+
+/** Of a surface with line integral convolution, in all processes. */
+std::vector<double> VolumeInParts::Impl::shades(const FrameRequest& alone) {
+    std::array<Frame, 3> components;
+    double error = 0;
+    for (std::size_t component = 0; component < components.size(); ++component) {
+        components[component] = draw_folded(component_request(alone, component));
+        if (!renderers.empty()) {
+            const FieldChoice& vector = alone.surfaces[0].lic->vectors[component];
+            error = std::hypot(error, renderers[0]->ranges().value_error(vector, alone.time_step, 0));
+        }
+    }
+    return team.of_first(team.is_first() ? shades_of(device, precision, alone, components, ranges->bounds(), error)
+                                         : std::vector<double>{});
+}
+
 /** Of the first process; elsewhere empty. */
 Frame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request) {
     Frame picture = team.is_first() ? empty_picture(request, precision) : Frame{};
@@ -234,9 +266,12 @@ Frame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request) {
         FrameRequest alone = request;
         alone.surfaces = {request.surfaces[index]};
         alone.volume.reset();
-        const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own(alone)));
+        if (alone.surfaces[0].lic) {
+            alone.shades = std::make_shared<const std::vector<double>>(shades(alone));
+        }
+        const Frame surface = draw_folded(alone);
         if (team.is_first()) {
-            add_surface(folded(alone, pictures, diagonal_of(ranges->bounds()), precision), index, picture);
+            add_surface(surface, index, picture);
         }
     }
     finish_surfaces(picture);
@@ -349,9 +384,6 @@ void need_parts_can_draw(const Scene& scene) {
     }
     if (scene.samples > 1) {
         refuse(scene, "several samples a pixel");
-    }
-    if (scene.lic || std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) { return surface.lic.has_value(); })) {
-        refuse(scene, "line integral convolution");
     }
 }
 

@@ -97,6 +97,16 @@ void write_pixels(const std::vector<Shown>& shown, Frame& frame) {
     }
 }
 
+/** Edges of several parts in one pixel are seen together: where one of them is certain, there is an edge. */
+void join_edges(std::span<const PartPicture> pictures, Frame& frame) {
+    for (const PartPicture& picture : pictures) {
+        for (const PartPixel& pixel : picture.pixels) {
+            frame.flags[pixel.pixel] |= pixel.flags & (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided);
+        }
+    }
+    std::ranges::transform(frame.flags, frame.flags.begin(), settled);
+}
+
 /** Of the widest lines, in pixels; 0 if there are none. */
 double width_of_lines(const FrameRequest& request) {
     double width = 0;
@@ -266,6 +276,9 @@ Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures,
     std::vector<Shown> shown = nearest(frame.flags.size(), pictures);
     settle(shown, same_depth * diagonal);
     write_pixels(shown, frame);
+    if (traits_of(request.surfaces[0].geometry).wires != nullptr) {
+        join_edges(pictures, frame);
+    }
     LineDoubts(request, frame).flag(pictures, shown);
     return frame;
 }

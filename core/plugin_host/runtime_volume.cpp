@@ -85,7 +85,7 @@ void RuntimeVolume::Impl::read_fields() {
             }
         }
         fields.push_back({theirs.name, theirs.unit ? theirs.unit : "", theirs.n_components, theirs.continuity, theirs.transform,
-                          theirs.max_jump});
+                          theirs.max_jump, false});
     }
 }
 

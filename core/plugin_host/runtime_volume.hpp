@@ -9,6 +9,8 @@
 
 #include <core/base/cancel.hpp>
 #include <core/base/vector3.hpp>
+#include <core/plugin_host/field_info.hpp>
+#include <core/plugin_host/fields_by_place.hpp>
 #include <elvis/runtime.h>
 
 #include <array>
@@ -32,15 +34,6 @@ struct ClassInfo {
     std::uint64_t first_element = 0;
     std::uint32_t geometry_order[3]{};
     bool is_affine = false;
-};
-
-struct FieldInfo {
-    std::string name;
-    std::string unit;
-    std::uint32_t n_components = 1;
-    elvis_continuity continuity = ELVIS_CONTINUITY_UNKNOWN;
-    elvis_transform transform = ELVIS_TRANSFORM_NONE;
-    double max_jump = 0; ///< NaN if unknown
 };
 
 struct ClassFieldInfo {
@@ -127,6 +120,7 @@ public:
     std::uint64_t n_elements() const;
     std::uint64_t n_faces() const;
     const std::vector<ClassInfo>& classes() const;
+    /** Its own, then those that are found by place. */
     const std::vector<FieldInfo>& fields() const;
     const std::vector<double>& times() const;
     const std::vector<std::string>& boundary_groups() const;
@@ -194,12 +188,23 @@ public:
     const RuntimeVolume* undeformed() const;
     void set_undeformed(std::function<RuntimeVolume()> open);
 
+    /**
+     * Adds fields of another volume, of which evaluate_field() finds values by place: NaN where that volume is not. All else
+     * that is asked about them throws an Error that says what they are good for. Needs has_evaluation().
+     */
+    void add_by_place(std::shared_ptr<const FieldsByPlace> others);
+    /** Throws that Error for a field that is found by place. */
+    void need_own(std::uint32_t field) const;
+
     bool has_jacobian_checks() const;
     /** Checked: known signs, witnesses in the shape. Needs has_jacobian_checks(); core/volume/element/jacobian_check.hpp does
      * not. */
     elvis_certainty check_jacobians(std::uint64_t first, double tolerance, std::span<JacobianCheck> out) const;
 
 private:
+    void evaluate_by_place(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, std::span<const double> xi,
+                           std::span<double> values, std::span<double> gradients) const;
+
     struct Impl;
     std::unique_ptr<Impl> m_impl;
 };

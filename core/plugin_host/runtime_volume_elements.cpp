@@ -76,6 +76,7 @@ elvis_certainty RuntimeVolume::field_ranges(std::uint32_t field, std::uint32_t t
                                             std::uint64_t count, std::span<FieldRange> out) const {
     static_assert(sizeof(FieldRange) == 2 * sizeof(double));
     assert(has_field_ranges() && out.size() == count * m_impl->fields[field].n_components);
+    m_impl->need_own(field);
     elvis_certainty certainty = ELVIS_ESTIMATED;
     m_impl->call("get_field_ranges", m_impl->table->get_field_ranges, field, time_step, first, count,
                  reinterpret_cast<double*>(out.data()), &certainty);
@@ -89,6 +90,7 @@ elvis_certainty RuntimeVolume::field_ranges(std::uint32_t field, std::uint32_t t
 }
 
 std::optional<FieldExtrema> RuntimeVolume::extrema(std::uint32_t field, int component, std::uint32_t time_step) const {
+    m_impl->need_own(field);
     const elvis_extrema* table = m_impl->plugin->extrema();
     if (!table) {
         return {};
@@ -141,6 +143,7 @@ bool RuntimeVolume::has_derivative_bounds() const { return m_impl->table->get_fi
 elvis_certainty RuntimeVolume::derivative_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
                                                  std::uint64_t count, std::span<DerivativeBounds> out) const {
     assert(has_derivative_bounds());
+    m_impl->need_own(field);
     return m_impl->bound_derivatives("get_field_derivative_bounds", m_impl->table->get_field_derivative_bounds, field,
                                      time_step, first, count, out);
 }
@@ -150,6 +153,7 @@ bool RuntimeVolume::has_apex_bounds() const { return m_impl->plugin->apex_bounds
 elvis_certainty RuntimeVolume::apex_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
                                            std::uint64_t count, std::span<DerivativeBounds> out) const {
     assert(has_apex_bounds());
+    m_impl->need_own(field);
     return m_impl->bound_derivatives("get_field_apex_bounds", m_impl->plugin->apex_bounds()->get_field_apex_bounds, field,
                                      time_step, first, count, out);
 }
@@ -189,6 +193,10 @@ void RuntimeVolume::evaluate_field(std::uint32_t field, std::uint32_t time_step,
     [[maybe_unused]] const std::size_t n_numbers = xi.size() / 3 * m_impl->fields[field].n_components;
     assert(values.empty() || values.size() == n_numbers);
     assert(gradients.empty() || gradients.size() == 3 * n_numbers);
+    if (m_impl->fields[field].is_by_place) {
+        evaluate_by_place(field, time_step, element, xi, values, gradients);
+        return;
+    }
     m_impl->call("evaluate_field", m_impl->table->evaluate_field, field, time_step, element, xi.size() / 3, xi.data(),
                  values.empty() ? nullptr : values.data(), gradients.empty() ? nullptr : gradients.data());
     if (dimension() == 2) {

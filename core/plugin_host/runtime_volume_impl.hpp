@@ -27,6 +27,8 @@ struct RuntimeVolume::Impl {
     std::vector<std::pair<std::string, std::string>> notes;
     std::function<RuntimeVolume()> open_undeformed;
     std::optional<RuntimeVolume> undeformed;
+    /** Of the fields behind the own ones: what finds them, and which one they are there. */
+    std::vector<std::pair<std::shared_ptr<const FieldsByPlace>, std::uint32_t>> by_place;
 
     ~Impl() {
         if (volume && is_closed_here) {
@@ -37,6 +39,8 @@ struct RuntimeVolume::Impl {
     }
 
     void check(elvis_result result, const char* function) const { services->check(result, function, path); }
+    /** Throws Error for a field that is found by place. */
+    void need_own(std::uint32_t field) const;
     /** Calls a function of the table by its name; throws what comes of it. */
     template <class Function, class... Arguments> void call(const char* name, Function function, Arguments... arguments) const {
         services->begin(name);

@@ -36,6 +36,9 @@ bool is_identifier(const std::string& name, bool upper_case) {
 } // namespace
 
 ClassFieldInfo RuntimeVolume::class_field(std::uint32_t element_class, std::uint32_t field) const {
+    if (m_impl->fields[field].is_by_place) {
+        return {{-1, -1, -1}, {}};
+    }
     auto theirs = sized<elvis_class_field>();
     m_impl->call("get_class_field", m_impl->table->get_class_field, element_class, field, &theirs);
     if (theirs.n_constants > 4096 || (theirs.n_constants > 0 && !theirs.constants)) {
@@ -54,6 +57,7 @@ ClassFieldInfo RuntimeVolume::class_field(std::uint32_t element_class, std::uint
 }
 
 BufferInfo RuntimeVolume::buffer(std::uint32_t buffer, std::uint32_t field) const {
+    m_impl->need_own(field);
     auto theirs = sized<elvis_buffer>();
     m_impl->call("get_buffer", m_impl->table->get_buffer, buffer, field, &theirs);
     if (!theirs.name || !is_identifier(theirs.name, false)) {
@@ -113,6 +117,7 @@ bool RuntimeVolume::is_cut() const {
 }
 
 void RuntimeVolume::fill_buffer(const elvis_fill_request& request, void* destination) const {
+    m_impl->need_own(request.field);
     elvis_fill_request copy = request;
     copy.struct_size = sizeof copy;
     m_impl->call("fill_buffer", m_impl->table->fill_buffer, &copy, destination);

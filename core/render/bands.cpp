@@ -40,11 +40,15 @@ FrameRequest request_for(const FrameRequest& whole, const Rows& rows) {
     FrameRequest request = whole;
     request.height = rows.end - rows.first;
     request.part = {rows.first, whole.height};
-    if (whole.hidden_from) {
-        const auto all = std::span(*whole.hidden_from);
-        const auto own = all.subspan(std::size_t{rows.first} * whole.width, std::size_t{request.height} * whole.width);
-        request.hidden_from = std::make_shared<const std::vector<double>>(own.begin(), own.end());
-    }
+    const auto take_rows = [&](std::shared_ptr<const std::vector<double>>& numbers) {
+        if (numbers) {
+            const auto own =
+                std::span(*numbers).subspan(std::size_t{rows.first} * whole.width, std::size_t{request.height} * whole.width);
+            numbers = std::make_shared<const std::vector<double>>(own.begin(), own.end());
+        }
+    };
+    take_rows(request.hidden_from);
+    take_rows(request.shades);
     return request;
 }
 

@@ -65,6 +65,11 @@ struct FrameRequest {
     /** Without surfaces: depths in front of which light of the volume is wanted, one a pixel, infinite where nothing hides it.
      */
     std::shared_ptr<const std::vector<double>> hidden_from;
+    /**
+     * Of one surface with line integral convolution: by what its colours are multiplied, one a pixel, in place of what would be
+     * found along its vectors.
+     */
+    std::shared_ptr<const std::vector<double>> shades;
     /** Of a part of a volume, with hidden_from: Frame::runs are given in place of colours. */
     bool gives_runs = false;
     /** Surfaces show their colours as they are if absent. */

@@ -1,4 +1,5 @@
 #include <core/render/layered_picture.hpp>
+#include <core/vulkan/real_array.hpp>
 
 namespace elvis {
 
@@ -46,6 +47,11 @@ void LayeredPicture::provide(const Surface& surface) {
     if (!surface.conditions.empty() && !m_condition_pass) {
         m_condition_pass = std::make_unique<ConditionPass>(m_device, m_precision);
     }
+    if (surface.lic && m_request->shades) {
+        write_reals(provide_buffer(m_shades, m_device, m_layer->n_pixels() * real_bytes(m_precision)), m_precision,
+                    *m_request->shades);
+        return;
+    }
     if (surface.lic && !m_lic_pass) {
         m_lic_pass = std::make_unique<LicPass>(m_device, m_precision);
     }
@@ -59,7 +65,7 @@ LayeredPicture::Setting LayeredPicture::setting_of(const SurfaceDrawing& drawing
     const Surface& surface = drawing.surface();
     const SurfaceTraits& traits = drawing.traits();
     Setting setting;
-    const bool wants_places = surface.has_lines() || !surface.conditions.empty() || surface.lic;
+    const bool wants_places = surface.has_lines() || !surface.conditions.empty() || surface.lic || surface.by_place;
     if ((wants_places && traits.plane == nullptr) || traits.isosurfaces != nullptr) {
         setting.places = &provide_buffer(m_places, m_device, m_layer->n_pixels() * place_bytes(m_precision));
     }
@@ -82,7 +88,7 @@ void LayeredPicture::draw(SurfaceDrawing& drawing, std::size_t index, std::uint3
         n_hidden += draw_layer(drawing, setting, wanted, beyond);
         m_color_pass.draw(*m_layer, surface, index, drawing.rays(), m_is_alone ? m_request->background : Color{},
                           drawing.offset(), common_flags, is_lit(surface) ? &*m_request->lighting : nullptr,
-                          surface.lic ? &m_lic_pass->shades() : nullptr);
+                          surface.lic ? &shades() : nullptr);
         wanted = merge(drawing, index);
         // A plane is met once, and what edges hide of others is nothing.
         if (traits.plane != nullptr || traits.wires != nullptr) {
@@ -117,7 +123,7 @@ std::uint32_t LayeredPicture::draw_layer(SurfaceDrawing& drawing, const Setting&
         m_frame->counts.hidden_pixels += n_hidden;
     }
     drawing.finish(target, m_frame->counts);
-    if (surface.lic) {
+    if (surface.lic && !m_request->shades) {
         convolve(drawing, setting);
     }
     if (setting.opaque != nullptr) {
@@ -135,6 +141,8 @@ void LayeredPicture::cut_where_conditions_fail(SurfaceDrawing& drawing, const La
         m_condition_pass->judge(*m_layer, *m_other_values, limit);
     }
 }
+
+const Buffer& LayeredPicture::shades() const { return m_request->shades ? *m_shades : m_lic_pass->shades(); }
 
 /** Colours alone are to differ: passes that evaluate the vectors put their flags elsewhere. */
 void LayeredPicture::convolve(SurfaceDrawing& drawing, const Setting& setting) {

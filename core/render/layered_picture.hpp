@@ -50,6 +50,8 @@ private:
                              const Buffer* beyond);
     void cut_where_conditions_fail(SurfaceDrawing& drawing, const LayerTarget& target);
     void convolve(SurfaceDrawing& drawing, const Setting& setting);
+    /** By what colours of a surface with line integral convolution are multiplied. */
+    const Buffer& shades() const;
     MergePass::Wanted merge(const SurfaceDrawing& drawing, std::size_t index);
     ViewStart start_of_view() const;
     bool is_lit(const Surface& surface) const { return m_request->lighting.has_value() && surface.is_lit; }
@@ -64,6 +66,8 @@ private:
     std::unique_ptr<Layer> m_layer;
     /** Of the layer's pixels. */
     std::optional<Buffer> m_places;
+    /** FrameRequest::shades. */
+    std::optional<Buffer> m_shades;
     /** Values of other fields than those that give colours, and what is done with them: there when a surface has conditions,
      * or line integral convolution. */
     std::unique_ptr<Layer> m_other_values;

@@ -7,6 +7,7 @@
 
 #include <core/render/cut_surface/surface_solver.hpp>
 #include <core/render/field/shown_field.hpp>
+#include <core/render/field/values_by_place.hpp>
 #include <core/render/field_passes.hpp>
 #include <core/render/frame.hpp>
 #include <core/volume/boundary/edge_set.hpp>
@@ -14,6 +15,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +41,7 @@ public:
     const FaceSet& faces(const FaceGeometry& faces);
     const EdgeSet& edges(const WireFrame& wires);
     SurfaceSolver& solver(const CutShape& shape);
+    ValuesByPlace& by_place() { return m_by_place ? *m_by_place : m_by_place.emplace(m_device, m_volume); }
 
 private:
     void keep_faces(const FrameRequest& request);
@@ -59,6 +62,7 @@ private:
     /** By ShownFields::key(): of the last frame, and of its time step. */
     std::map<std::string, FieldPasses> m_passes;
     std::uint32_t m_step = 0;
+    std::optional<ValuesByPlace> m_by_place;
     /** By solver_key(). */
     std::map<std::string, SurfaceSolver> m_solvers;
 };

@@ -1,6 +1,7 @@
 #include <core/render/prepared_request.hpp>
 
 #include <core/base/error.hpp>
+#include <core/render/field/chosen_values.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,22 @@ void check_surface(const Surface& surface, const RuntimeVolume& volume) {
     }
 }
 
+/** What is found by place is shown by points. */
+void check_by_place(const Surface& surface, const RuntimeVolume& volume) {
+    const auto refuse = [&](const char* what, const char* why) {
+        throw Error(what,
+                    "of '" + surface.field_label + "', which takes fields that are found by place in another volume, " + why);
+    };
+    const Isosurfaces* const isosurfaces = traits_of(surface.geometry).isosurfaces;
+    if (isosurfaces != nullptr && is_by_place(isosurfaces->field, volume)) {
+        refuse("isosurfaces",
+               "cannot be found: nothing is known of them between points. They can have its colours (color_field)");
+    }
+    if (surface.contours && is_by_place(surface.field, volume)) {
+        refuse("contours", "cannot be found: nothing is known of them between points");
+    }
+}
+
 Surface on_isosurface(const Surface& looks, const FieldChoice& field, double value) {
     Surface surface = looks;
     Isosurfaces isosurface;
@@ -80,6 +97,23 @@ std::vector<Surface> boundary_inside(const Surface& surface, const RuntimeVolume
         inside.back().conditions.erase(inside.back().conditions.begin() + static_cast<std::ptrdiff_t>(index));
     }
     return inside;
+}
+
+/** Another field stands for what the device cannot evaluate: the isosurface's own, or the volume's first one. */
+void set_by_place_aside(Surface& surface, const RuntimeVolume& volume) {
+    if (!is_by_place(surface.field, volume)) {
+        return;
+    }
+    const SurfaceTraits traits = traits_of(surface.geometry);
+    if (traits.wires == nullptr && !traits.has_own_values) {
+        surface.by_place = surface.field;
+    }
+    const Isosurfaces* const isosurfaces = traits.isosurfaces;
+    surface.field = isosurfaces != nullptr ? isosurfaces->field : FieldChoice{};
+    if (isosurfaces == nullptr) {
+        surface.field.component = volume.fields()[0].n_components > 1 ? -1 : 0;
+        surface.field.offset = 0;
+    }
 }
 
 /** Isosurfaces and conditions have the digits of differences from their values. */
@@ -110,6 +144,7 @@ void check_request(const FrameRequest& request, const RuntimeVolume& volume) {
     }
     for (const Surface& surface : request.surfaces) {
         check_surface(surface, volume);
+        check_by_place(surface, volume);
     }
 }
 
@@ -119,6 +154,7 @@ FrameRequest prepared(FrameRequest request, const RuntimeVolume& volume, ShownFi
         std::ranges::move(boundary_inside(request.surfaces[index], volume), std::back_inserter(request.surfaces));
     }
     for (Surface& surface : request.surfaces) {
+        set_by_place_aside(surface, volume);
         take_offsets(surface, request.time_step, fields);
     }
     return request;

@@ -16,8 +16,9 @@ namespace elvis {
 void check_request(const FrameRequest& request, const RuntimeVolume& volume);
 
 /**
- * With fields less what keeps their digits, and behind the surfaces that are asked for, where elements are cut by their own
- * boundary (elvis_inside) or by conditions, those cuts, for each that shows the whole boundary.
+ * With fields that the device evaluates in place of those found by place (Surface::by_place), with fields less what keeps their
+ * digits, and behind the surfaces that are asked for, where elements are cut by their own boundary (elvis_inside) or by
+ * conditions, those cuts, for each that shows the whole boundary.
  */
 FrameRequest prepared(FrameRequest request, const RuntimeVolume& volume, ShownFields& fields);
 

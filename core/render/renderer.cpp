@@ -121,7 +121,8 @@ void Renderer::Impl::find_overlaps(const TaskControl* task) {
 }
 
 std::uint32_t Renderer::Impl::flags_of_range(const Surface& surface, std::uint32_t time_step, double offset) {
-    if (data.precision() == Precision::float64 || surface.colors.points.size() < 2) {
+    // What is found by place comes in double precision.
+    if (data.precision() == Precision::float64 || surface.colors.points.size() < 2 || surface.by_place) {
         return 0;
     }
     const double lower = surface.colors.points.front().value, upper = surface.colors.points.back().value;

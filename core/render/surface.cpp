@@ -21,7 +21,7 @@ struct TraitsOfKind {
     }
     SurfaceTraits operator()(const CutShape& shape) const {
         const bool is_arrows = std::holds_alternative<ArrowSurface>(shape);
-        return {.may_lie_outside = !is_arrows, .has_own_values = is_arrows};
+        return {.fits_flat = is_arrows, .may_lie_outside = !is_arrows, .has_own_values = is_arrows};
     }
     SurfaceTraits operator()(const Isosurfaces& isosurfaces) const { return {.isosurfaces = &isosurfaces}; }
 };

@@ -209,6 +209,11 @@ struct Lic {
 struct Surface {
     SurfaceGeometry geometry;
     FieldChoice field{};
+    /**
+     * Of a prepared request (prepared_request.hpp): what is shown, if it is found by place; `field` is then one of the
+     * device's, with which the surface is found.
+     */
+    std::optional<FieldChoice> by_place{};
     /** What people know the field by, if not by its own name or text. */
     std::string field_label{};
     ColorTable colors{};

@@ -42,7 +42,7 @@ SurfaceDrawing::SurfaceDrawing(const FrameRequest& request, const Surface& surfa
     : m_request(request), m_surface(surface), m_fields(fields), m_passes(passes), m_traits(traits_of(surface.geometry)),
       m_rays(rays_of(request, m_traits.plane, data)), m_offset(fields.upload(surface.field, request.time_step)),
       m_component(shown_component(surface, fields, data.precision())), m_lines(line_request(surface, m_offset)),
-      m_own(passes.of(surface.field)), m_edge_pass(data.precision()) {}
+      m_own(passes.of(surface.field)), m_precision(data.precision()), m_edge_pass(data.precision()) {}
 
 void SurfaceDrawing::provide() {
     std::visit([this](const auto& kind) { provide(kind); }, m_surface.geometry);
@@ -72,6 +72,9 @@ void SurfaceDrawing::draw(const LayerTarget& target, FrameCounts& counts) {
 
 void SurfaceDrawing::finish(const LayerTarget& target, FrameCounts& counts) {
     std::visit([&](const auto& kind) { finish(kind, target, counts); }, m_surface.geometry);
+    if (m_surface.by_place) {
+        m_passes.by_place().draw(m_surface, m_request, m_offset, m_precision, target);
+    }
 }
 
 void SurfaceDrawing::draw_field(const FieldChoice& field, const LayerTarget& target, const Layer& values, FrameCounts& counts) {
@@ -146,8 +149,10 @@ void SurfaceDrawing::finish(const CutPlane&, const LayerTarget& target, FrameCou
 }
 
 void SurfaceDrawing::provide(const CutShape& shape) {
-    m_own.cut_shapes();
-    m_passes.solver(shape);
+    SurfacePass& pass = m_own.cut_shapes();
+    if (!m_passes.solver(shape).has_own_values()) {
+        pass.provide_elements();
+    }
     provide_lines(shape);
 }
 

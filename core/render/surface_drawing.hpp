@@ -27,7 +27,8 @@ public:
     void provide();
     /** Where each pixel's ray meets the surface first, and the field there. */
     void draw(const LayerTarget& target, FrameCounts& counts);
-    /** What rests on that: lines, colours by another field, and a plane where it lies in no element. */
+    /** What rests on that: lines, colours by another field or by what is found by place, and a plane where it lies in no
+     * element. */
     void finish(const LayerTarget& target, FrameCounts& counts);
     /** Of all pixels that show the surface in `target`: values of another field, into the samples of `values`. */
     void draw_field(const FieldChoice& field, const LayerTarget& target, const Layer& values, FrameCounts& counts);
@@ -81,6 +82,7 @@ private:
     LineRequest m_lines;
     /** Of the field that colours it. */
     FieldPasses& m_own;
+    Precision m_precision;
     EdgePass m_edge_pass;
 };
 

@@ -128,8 +128,12 @@ struct GeometryCompletion {
     void operator()(ElementFaces& elements) const {
         ElementSelection& selection = elements.selection;
         const FieldChoice& field = surface.field;
-        if (field.expression && (selection.value_range || selection.orders)) {
+        const bool has_condition = selection.value_range || selection.orders;
+        if (has_condition && field.expression) {
             throw Error(scene.volume, "elements can be chosen by the values and order of a field, not of an expression");
+        }
+        if (has_condition) {
+            volume.need_own(field.field);
         }
         selection.field = field.field;
         selection.component = field.component;

@@ -99,6 +99,8 @@ struct SceneStreamlines {
     double tolerance = 1e-9;
     /** Of the tubes; by default a part of the diagonal. */
     std::optional<double> radius{};
+    /** They are ribbons of this width, which turn with the flow, in place of tubes. */
+    std::optional<double> ribbon_width{};
     /** They are pathlines. */
     std::optional<ScenePathTimes> times{};
 };
@@ -142,7 +144,7 @@ struct SceneSurface {
     bool is_lit = true;
     /** Surfaces that are not drawn are there for expressions, and to be shown again. */
     bool is_shown = true;
-    /** Of a TubeSurface: what its tubes are about. */
+    /** Of a TubeSurface or RibbonSurface: what it is about. */
     std::optional<SceneStreamlines> streamlines{};
     /** Of an ArrowSurface: what its arrows are. */
     std::optional<SceneArrows> arrows{};

@@ -99,6 +99,7 @@ struct DistanceTo {
     Text operator()(const MeshSurface&) const { return {}; }
     Text operator()(const BezierSurface&) const { return {}; }
     Text operator()(const TubeSurface&) const { return {}; }
+    Text operator()(const RibbonSurface&) const { return {}; }
     Text operator()(const ArrowSurface&) const { return {}; }
     Text operator()(const FaceGeometry&) const { return {}; }
     Text operator()(const WireFrame&) const { return {}; }

@@ -3,10 +3,12 @@
 #include <core/base/bounds.hpp>
 #include <core/base/counted.hpp>
 #include <core/base/log.hpp>
+#include <core/streamline/ribbon.hpp>
 #include <core/streamline/trace.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -49,6 +51,7 @@ std::string key_of(const SceneStreamlines& lines, std::uint32_t time_step) {
     add(lines.length.value_or(0));
     add(lines.tolerance);
     add(lines.radius.value_or(0));
+    add(lines.ribbon_width.value_or(0));
     if (lines.times) {
         // What is not said differs from every number.
         add(lines.times->start.value_or(std::nan("")));
@@ -86,19 +89,9 @@ Flow flow_of(const SceneStreamlines& wanted, const RuntimeVolume& volume, std::u
     return {volume, wanted.flow, pathline_times(volume, static_cast<TraceDirection>(wanted.direction), options)};
 }
 
-std::shared_ptr<const TubeSet> tubes_of(const SceneStreamlines& wanted, const RuntimeVolume& volume, std::uint32_t time_step,
-                                        const std::array<double, 6>& bounds, const TaskControl& control) {
-    need_evaluation(volume);
-    TraceOptions options;
-    options.direction = static_cast<TraceDirection>(wanted.direction);
-    const Flow flow = flow_of(wanted, volume, time_step);
-    options.tolerance = wanted.tolerance;
-    options.most_length = wanted.length.value_or(0);
-    const std::vector<Streamline> lines =
-        trace(flow, wanted.seeds.empty() ? grid_seeds(bounds, wanted.seed_grid) : wanted.seeds, options, control);
-    say_ends(wanted.times ? "pathlines" : "streamlines", wanted.flow, lines);
+TubeSurface tubes_about(const std::vector<Streamline>& lines, double radius) {
     auto tubes = std::make_shared<TubeSet>();
-    tubes->radius = wanted.radius.value_or(default_radius * diagonal_of(bounds));
+    tubes->radius = radius;
     for (const Streamline& line : lines) {
         std::vector<Vector3> points;
         for (const TracePoint& point : line.points) {
@@ -108,7 +101,42 @@ std::shared_ptr<const TubeSet> tubes_of(const SceneStreamlines& wanted, const Ru
         }
         tubes->add(points);
     }
-    return tubes;
+    return {tubes};
+}
+
+RibbonSurface ribbons_along(const std::vector<Streamline>& lines, const Flow& flow, double width, const TaskControl& control) {
+    auto ribbons = std::make_shared<RibbonSet>();
+    ribbons->width = width;
+    for (const Streamline& line : lines) {
+        control.check();
+        std::vector<Vector3> points;
+        std::ranges::transform(line.points, std::back_inserter(points), &TracePoint::position);
+        ribbons->add(points, ribbon_sides(flow, line));
+    }
+    return {ribbons};
+}
+
+CutShape shape_of(const SceneStreamlines& wanted, const RuntimeVolume& volume, std::uint32_t time_step,
+                  const std::array<double, 6>& bounds, const TaskControl& control) {
+    need_evaluation(volume);
+    TraceOptions options;
+    options.direction = static_cast<TraceDirection>(wanted.direction);
+    const Flow plain = flow_of(wanted, volume, time_step);
+    const Flow flow = wanted.ribbon_width ? plain.with_spin() : plain;
+    options.tolerance = wanted.tolerance;
+    options.most_length = wanted.length.value_or(0);
+    const std::vector<Streamline> lines =
+        trace(flow, wanted.seeds.empty() ? grid_seeds(bounds, wanted.seed_grid) : wanted.seeds, options, control);
+    say_ends(wanted.times ? "pathlines" : "streamlines", wanted.flow, lines);
+    if (wanted.ribbon_width) {
+        return ribbons_along(lines, flow, *wanted.ribbon_width, control);
+    }
+    return tubes_about(lines, wanted.radius.value_or(default_radius * diagonal_of(bounds)));
+}
+
+bool is_empty(const CutShape& shape) {
+    const auto* ribbons = std::get_if<RibbonSurface>(&shape);
+    return ribbons != nullptr ? ribbons->ribbons->pieces.empty() : std::get<TubeSurface>(shape).tubes->pieces.empty();
 }
 
 } // namespace
@@ -125,10 +153,10 @@ void StreamlineTubes::provide(Scene& scene, const RuntimeVolume& volume, const s
             if (m_known.size() >= most_known) {
                 m_known.clear();
             }
-            known = m_known.emplace(key, tubes_of(*surface.streamlines, volume, scene.time_step, bounds, control)).first;
+            known = m_known.emplace(key, shape_of(*surface.streamlines, volume, scene.time_step, bounds, control)).first;
         }
-        surface.geometry = TubeSurface{known->second};
-        surface.is_shown = !known->second->pieces.empty();
+        surface.geometry = known->second;
+        surface.is_shown = !is_empty(known->second);
     }
 }
 

@@ -1,6 +1,6 @@
 /**
  * @file streamline_tubes.hpp
- * Streamlines of scenes, as tubes that can be drawn.
+ * Streamlines of scenes, as tubes or ribbons that can be drawn.
  */
 #pragma once
 
@@ -19,16 +19,16 @@ namespace elvis {
 class StreamlineTubes {
 public:
     /**
-     * Gives the scene's streamlines, at its time step, their tubes; those of earlier scenes are kept for a while. Surfaces
-     * without any line are hidden. `bounds`: of the volume. What became of the lines goes to the log, once. Throws Error for
-     * what is no flow, and for volumes in which lines cannot be followed.
+     * Gives the scene's streamlines, at its time step, their tubes or ribbons; those of earlier scenes are kept for a while.
+     * Surfaces without any line are hidden. `bounds`: of the volume. What became of the lines goes to the log, once. Throws
+     * Error for what is no flow, and for volumes in which lines cannot be followed.
      */
     void provide(Scene& scene, const RuntimeVolume& volume, const std::array<double, 6>& bounds, const TaskControl& control);
     /** Values of fields have changed. */
     void forget() { m_known.clear(); }
 
 private:
-    std::map<std::string, std::shared_ptr<const TubeSet>> m_known;
+    std::map<std::string, CutShape> m_known;
 };
 
 } // namespace elvis

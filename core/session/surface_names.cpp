@@ -15,7 +15,8 @@ std::string shape_name(const CutShape& shape) {
                    [](const Cone&) { return "cone"; }, [](const Quadric&) { return "quadric"; },
                    [](const Torus&) { return "torus"; }, [](const ImplicitSurface&) { return "implicit surface"; },
                    [](const MeshSurface&) { return "mesh"; }, [](const BezierSurface&) { return "Bezier patches"; },
-                   [](const TubeSurface&) { return "streamlines"; }, [](const ArrowSurface&) { return "arrows"; }},
+                   [](const TubeSurface&) { return "streamlines"; }, [](const RibbonSurface&) { return "ribbons"; },
+                   [](const ArrowSurface&) { return "arrows"; }},
         shape);
 }
 

@@ -34,24 +34,29 @@ Vector3 to_world(const std::array<double, 9>& jacobian, const Vector3& change) {
 FlowStep dormand_prince(const Flow& flow, const FlowState& start, double step) {
     std::array<Vector3, n_stages> slopes{start.sample.slope};
     std::array<double, n_stages> speeds{length(start.sample.velocity)};
-    FlowStep result{start, 0};
+    std::array<double, n_stages> spins{start.sample.spin};
+    FlowStep result{start, 0, 0};
     for (std::size_t stage = 1; stage < n_stages; ++stage) {
         Vector3 xi = start.at.xi;
-        double arc_length = start.arc_length;
+        double arc_length = start.arc_length, turn = start.turn;
         for (std::size_t before = 0; before < stage; ++before) {
             xi = plus(xi, scaled(slopes[before], step * weights[stage][before]));
             arc_length += step * weights[stage][before] * speeds[before];
+            turn += step * weights[stage][before] * spins[before];
         }
         result.end.at.xi = xi;
         result.end.arc_length = arc_length;
+        result.end.turn = turn;
         result.end.sample = flow.at(result.end.at, start.time + step * nodes[stage]);
         slopes[stage] = result.end.sample.slope;
         speeds[stage] = length(result.end.sample.velocity);
+        spins[stage] = result.end.sample.spin;
     }
     result.end.time = start.time + step;
     Vector3 error{};
     for (std::size_t stage = 0; stage < n_stages; ++stage) {
         error = plus(error, scaled(slopes[stage], step * error_weights[stage]));
+        result.turn_error += step * error_weights[stage] * spins[stage];
     }
     result.error = length(to_world(result.end.sample.jacobian, error));
     return result;

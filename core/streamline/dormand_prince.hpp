@@ -19,12 +19,14 @@ struct FlowState {
     double time = 0;
     /** From where the line begins. */
     double arc_length = 0;
+    /** Of what floats along, by the flow's spin since the seed; radians. */
+    double turn = 0;
 };
 
 struct FlowStep {
     FlowState end;
-    /** Length, in the world. */
-    double error = 0;
+    /** Length, in the world; and of the turn. */
+    double error = 0, turn_error = 0;
 };
 
 /** Stages may lie beyond the element, where its functions go on as they are. */

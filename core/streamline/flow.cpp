@@ -43,10 +43,12 @@ void need_evaluation(const RuntimeVolume& volume) {
 Flow::Flow(const RuntimeVolume& volume, const std::string& field, std::uint32_t time_step)
     : m_volume(&volume), m_time_step(time_step), m_field(plain_vector(volume, field)) {
     if (m_field) {
+        m_text = "'" + field + "'";
         return;
     }
+    m_text = "(" + field + ")";
     const auto component = [&](const char* index) {
-        return std::make_shared<const Expression>("(" + field + ")" + index, volume.fields(), volume.dimension());
+        return std::make_shared<const Expression>(m_text + index, volume.fields(), volume.dimension());
     };
     m_components = {component("[0]"), component("[1]"), nullptr};
     try {
@@ -69,6 +71,15 @@ Flow Flow::reversed() const {
     return other;
 }
 
+Flow Flow::with_spin() const {
+    Flow other = *this;
+    for (std::size_t i = 0; i < 3; ++i) {
+        other.m_curl[i] = std::make_shared<const Expression>("curl(" + m_text + ")[" + std::to_string(i) + "]",
+                                                             m_volume->fields(), m_volume->dimension());
+    }
+    return other;
+}
+
 elvis_shape Flow::shape_of(std::uint64_t element) const {
     const auto& classes = m_volume->classes();
     const auto after = std::upper_bound(classes.begin(), classes.end(), element,
@@ -77,43 +88,51 @@ elvis_shape Flow::shape_of(std::uint64_t element) const {
 }
 
 bool Flow::is_one_at_a_time() const {
-    return !m_field && std::ranges::any_of(m_components, [](const auto& part) { return part->needs_element_facts(); });
+    const auto needs_facts = [](const auto& part) { return part && part->needs_element_facts(); };
+    return std::ranges::any_of(m_components, needs_facts) || std::ranges::any_of(m_curl, needs_facts);
 }
 
-Vector3 Flow::velocity(const ReferencePoint& point, std::uint32_t time_step) const {
-    Vector3 velocity{};
-    if (m_field) {
+Vector3 Flow::at_step(const Components& components, const ReferencePoint& point, std::uint32_t time_step) const {
+    Vector3 value{};
+    if (!components[0]) {
         const std::size_t n_components = m_volume->fields()[*m_field].n_components;
-        m_volume->evaluate_field(*m_field, time_step, point.element, point.xi, std::span(velocity).first(n_components), {});
+        m_volume->evaluate_field(*m_field, time_step, point.element, point.xi, std::span(value).first(n_components), {});
     } else {
         VolumePoint here(*m_volume, point.element, point.xi, time_step);
         for (std::size_t i = 0; i < 3; ++i) {
-            velocity[i] = evaluate(*m_components[i], here);
+            value[i] = evaluate(*components[i], here);
         }
     }
-    return velocity;
+    return value;
 }
 
-Vector3 Flow::sum(const ReferencePoint& point, const TimeWeights& weights) const {
+Vector3 Flow::sum(const Components& components, const ReferencePoint& point, const TimeWeights& weights) const {
     Vector3 total{};
     for (std::size_t i = 0; i < weights.count; ++i) {
         // At a time step it is that step alone, whatever the others hold.
         if (weights.weights[i] != 0) {
-            total = plus(total, scaled(velocity(point, weights.steps[i]), weights.weights[i]));
+            total = plus(total, scaled(at_step(components, point, weights.steps[i]), weights.weights[i]));
         }
     }
     return total;
 }
 
+Vector3 Flow::value(const Components& components, const ReferencePoint& point, double since) const {
+    return is_steady() ? at_step(components, point, m_time_step)
+                       : sum(components, point, m_times.course->at(m_times.start + m_sign * since));
+}
+
 FlowSample Flow::at(const ReferencePoint& point, double since) const {
     FlowSample sample;
     m_volume->evaluate_mapping(point.element, point.xi, sample.position, sample.jacobian);
-    const Vector3 field =
-        is_steady() ? velocity(point, m_time_step) : sum(point, m_times.course->at(m_times.start + m_sign * since));
-    sample.velocity = scaled(field, m_sign);
+    sample.velocity = scaled(value(m_components, point, since), m_sign);
     sample.slope = product(invert_matrix(sample.jacobian), sample.velocity);
     if (m_volume->dimension() == 2) {
         sample.slope[2] = 0;
+    }
+    const double speed = length(sample.velocity);
+    if (m_curl[0] && speed > 0) {
+        sample.spin = dot(value(m_curl, point, since), sample.velocity) / (2 * speed);
     }
     return sample;
 }
@@ -139,7 +158,7 @@ std::optional<double> Flow::interpolation_doubt(const ReferencePoint& point, dou
     }
     const double middle = m_times.course->middle_about(m_times.start + m_sign * since);
     const std::optional<TimeWeights> weights = m_times.course->doubt_at(middle);
-    return weights ? std::optional(length(sum(point, *weights))) : std::nullopt;
+    return weights ? std::optional(length(sum(m_components, point, *weights))) : std::nullopt;
 }
 
 } // namespace elvis

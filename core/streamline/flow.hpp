@@ -27,6 +27,8 @@ struct FlowSample {
     Vector3 slope{};
     /** Jacobian of the mapping, row by row. */
     std::array<double, 9> jacobian{};
+    /** How fast what floats there turns about the velocity, in radians per time; 0 unless the flow is asked for it. */
+    double spin = 0;
 };
 
 /** Throws Error for volumes in which lines cannot be followed. */
@@ -40,8 +42,8 @@ struct FlowTimes {
 
 /**
  * A field at one time step, or one that changes in time. The volume, which evaluates on the CPU, must outlive it. Several
- * threads may use it. What it calls `since` is time since the seed, in the direction in which the flow is followed: never
- * negative.
+ * threads may use it. What it calls `since` is time since the seed, in the direction in which the flow is followed;
+ * negative before the seed.
  */
 class Flow {
 public:
@@ -52,6 +54,11 @@ public:
 
     /** Opposite to the field, and back in time. */
     Flow reversed() const;
+    /**
+     * The same, whose samples have their spin: half the vorticity's component along the velocity. Throws Error for a field
+     * whose curl is not known.
+     */
+    Flow with_spin() const;
     bool is_steady() const { return !m_times.course; }
     /** When points are at their seeds; 0 if it is steady. */
     double start() const { return m_times.start; }
@@ -69,16 +76,24 @@ public:
     bool is_one_at_a_time() const;
 
 private:
-    Vector3 velocity(const ReferencePoint& point, std::uint32_t time_step) const;
-    Vector3 sum(const ReferencePoint& point, const TimeWeights& weights) const;
+    using Components = std::array<std::shared_ptr<const Expression>, 3>;
+
+    /** `components`: of a field as it stands without any. */
+    Vector3 at_step(const Components& components, const ReferencePoint& point, std::uint32_t time_step) const;
+    Vector3 sum(const Components& components, const ReferencePoint& point, const TimeWeights& weights) const;
+    Vector3 value(const Components& components, const ReferencePoint& point, double since) const;
 
     const RuntimeVolume* m_volume;
     std::uint32_t m_time_step;
     /** Without a course if it is steady. */
     FlowTimes m_times;
+    /** The field's text as an expression. */
+    std::string m_text;
     /** A field as it stands, or else expressions. */
     std::optional<std::uint32_t> m_field;
-    std::array<std::shared_ptr<const Expression>, 3> m_components;
+    Components m_components;
+    /** None unless there is a spin. */
+    Components m_curl;
     double m_sign = 1;
 };
 

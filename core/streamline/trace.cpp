@@ -161,10 +161,11 @@ std::optional<TraceEnd> Tracer::enter_next(FlowState& state) const {
 void Tracer::keep(const FlowState& from, const FlowState& to, std::vector<TracePoint>& points) const {
     const double speeds = length(from.sample.velocity) * length(to.sample.velocity);
     const double cosine = speeds > 0 ? dot(from.sample.velocity, to.sample.velocity) / speeds : 1;
-    const auto n_pieces = static_cast<int>(std::ceil(std::acos(std::clamp(cosine, -1.0, 1.0)) / largest_turn + 1e-9));
+    const double turn = std::max(std::acos(std::clamp(cosine, -1.0, 1.0)), std::abs(to.turn - from.turn));
+    const auto n_pieces = static_cast<int>(std::ceil(turn / largest_turn + 1e-9));
     const double step = to.time - from.time;
     for (int piece = 1; piece < n_pieces; ++piece) {
-        // Cubic Hermite interpolation of the reference coordinates.
+        // Cubic Hermite interpolation of the reference coordinates and of the turn.
         const double s = static_cast<double>(piece) / n_pieces, t = 1 - s;
         TracePoint point;
         point.at.element = from.at.element;
@@ -173,9 +174,11 @@ void Tracer::keep(const FlowState& from, const FlowState& to, std::vector<TraceP
         m_flow.volume().evaluate_mapping(point.at.element, point.at.xi, point.position, {});
         point.time = from.time + s * step;
         point.arc_length = std::lerp(from.arc_length, to.arc_length, s);
+        point.turn = from.turn * t * t * (1 + 2 * s) + to.turn * s * s * (1 + 2 * t) +
+                     (from.sample.spin * t - to.sample.spin * s) * s * t * step;
         points.push_back(point);
     }
-    points.push_back({to.at, to.sample.position, to.time, to.arc_length});
+    points.push_back({to.at, to.sample.position, to.time, to.arc_length, to.turn});
 }
 
 TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
@@ -198,7 +201,7 @@ TraceEnd Tracer::follow(FlowState state, std::vector<TracePoint>& points) {
         const double without_stop = step;
         step = std::min(step, *stop - state.time);
         FlowStep next = dormand_prince(m_flow, state, step);
-        const double ratio = next.error / m_tolerance;
+        const double ratio = std::max(next.error / m_tolerance, std::abs(next.turn_error) / m_options.tolerance);
         if (!(ratio <= 1) && can_shrink(step, speed)) {
             step *= ratio > 0 ? std::max(0.2, 0.9 * std::pow(ratio, -0.2)) : 0.2;
             continue;
@@ -261,10 +264,10 @@ Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed
     }
     // On a face each direction begins where it leads into.
     const auto follow = [&](const Flow& along, std::vector<TracePoint>& points) {
-        FlowState start{holders.front(), along.at(holders.front(), 0), 0, 0};
+        FlowState start{holders.front(), along.at(holders.front(), 0), 0, 0, 0};
         Tracer tracer(along, finder, options, control);
         for (const ReferencePoint& holder : holders) {
-            const FlowState other{holder, along.at(holder, 0), 0, 0};
+            const FlowState other{holder, along.at(holder, 0), 0, 0, 0};
             const double speed = largest(other.sample.slope);
             const Vector3 ahead = plus(holder.xi, scaled(other.sample.slope, speed > 0 ? look_ahead / speed : 0));
             if (reference_excess(along.shape_of(holder.element), ahead) <= grazing) {
@@ -282,7 +285,7 @@ Streamline line_from(const Vector3& seed, const Flow& flow, const Flow& reversed
         line.begin = follow(reversed, upstream);
         line.points = turned_round(std::move(upstream));
     }
-    line.points.push_back({holders.front(), sample.position, 0, 0});
+    line.points.push_back({holders.front(), sample.position, 0, 0, 0});
     if (options.direction != TraceDirection::backward) {
         line.end = follow(flow, line.points);
     }

@@ -34,7 +34,7 @@ enum class TraceEnd : std::uint32_t {
 
 struct TraceOptions {
     TraceDirection direction = TraceDirection::both;
-    /** Of a step's error, as a share of the diagonal of the volume's bounds. */
+    /** Of a step's error, as a share of the diagonal of the volume's bounds; of the turn's, in radians. */
     double tolerance = 1e-9;
     /** In each direction, in the world; 0: of streamlines ten times the diagonal, of pathlines none. */
     double most_length = 0;
@@ -48,9 +48,12 @@ struct TracePoint {
     double time = 0;
     /** From the seed on; negative upstream. */
     double arc_length = 0;
+    /** Of what floats along, about the line's direction, since the seed; radians. 0 of a flow without spin. */
+    double turn = 0;
 };
 
-/** Points in the order of time, near enough to each other that the direction turns by a few degrees between two. */
+/** Points in the order of time, near enough to each other that the direction, and what floats, turn by a few degrees between
+ * two. */
 struct Streamline {
     std::vector<TracePoint> points;
     /** Why it begins and ends where it does; with one direction only, the other is the seed (length). */

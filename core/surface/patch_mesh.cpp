@@ -24,6 +24,17 @@ std::array<std::array<double, 4>, 4> part_weights(double from, double to) {
 
 } // namespace
 
+Vector3 BezierPatch::at(double u, double v) const {
+    const auto of_u = blossom(u, u, u), of_v = blossom(v, v, v);
+    Vector3 point{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        for (std::size_t j = 0; j < 4; ++j) {
+            point = plus(point, scaled(points[4 * i + j], of_u[i] * of_v[j]));
+        }
+    }
+    return point;
+}
+
 BezierPatch BezierPatch::part(double u0, double v0, double h) const {
     const auto of_u = part_weights(u0, u0 + h), of_v = part_weights(v0, v0 + h);
     BezierPatch result;

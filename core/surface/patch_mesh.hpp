@@ -18,6 +18,8 @@ namespace elvis {
 struct BezierPatch {
     std::array<Vector3, 16> points{};
 
+    /** u and v in [0, 1]. */
+    Vector3 at(double u, double v) const;
     /** The part over [u0, u0 + h] x [v0, v0 + h], by blossoming. */
     BezierPatch part(double u0, double v0, double h) const;
 };

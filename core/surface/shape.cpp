@@ -58,6 +58,7 @@ public:
     void operator()(const MeshSurface&) const {}
     void operator()(const BezierSurface&) const {}
     void operator()(const TubeSurface&) const {}
+    void operator()(const RibbonSurface&) const {}
     void operator()(const ArrowSurface&) const {}
 
 private:

@@ -7,6 +7,7 @@
 #include <core/base/vector3.hpp>
 #include <core/surface/arrow_set.hpp>
 #include <core/surface/patch_mesh.hpp>
+#include <core/surface/ribbon_set.hpp>
 #include <core/surface/triangle_mesh.hpp>
 #include <core/surface/tube_set.hpp>
 
@@ -69,13 +70,18 @@ struct TubeSurface {
     std::shared_ptr<const TubeSet> tubes;
 };
 
+struct RibbonSurface {
+    /** Null before its curves are known: then it can be read and written, not drawn. */
+    std::shared_ptr<const RibbonSet> ribbons;
+};
+
 struct ArrowSurface {
     /** Null before they are known: then it can be read and written, not drawn. */
     std::shared_ptr<const ArrowSet> arrows;
 };
 
 using CutShape = std::variant<Sphere, Cylinder, Cone, Quadric, Torus, ImplicitSurface, MeshSurface, BezierSurface, TubeSurface,
-                              ArrowSurface>;
+                              RibbonSurface, ArrowSurface>;
 
 /** Checks what the comments above ask for; throws Error that names `place` and the number. */
 void check_shape(const CutShape& shape, const std::string& place);

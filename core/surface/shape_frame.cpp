@@ -108,6 +108,7 @@ struct FormOf {
     Form operator()(const MeshSurface&) const { return {}; }
     Form operator()(const BezierSurface&) const { return {}; }
     Form operator()(const TubeSurface&) const { return {}; }
+    Form operator()(const RibbonSurface&) const { return {}; }
     Form operator()(const ArrowSurface&) const { return {}; }
 };
 
@@ -188,6 +189,7 @@ std::string shape_solver(const CutShape& shape) {
     return std::holds_alternative<MeshSurface>(shape)       ? "mesh"
            : std::holds_alternative<BezierSurface>(shape)   ? "bezier"
            : std::holds_alternative<TubeSurface>(shape)     ? "tubes"
+           : std::holds_alternative<RibbonSurface>(shape)   ? "ribbons"
            : std::holds_alternative<ArrowSurface>(shape)    ? "arrows"
            : std::holds_alternative<ImplicitSurface>(shape) ? "implicit"
            : std::holds_alternative<Torus>(shape)           ? "torus"
@@ -204,7 +206,7 @@ ShapeFrame shape_frame(const CutShape& shape, const Vector3& reference) {
         // The reference point is exact in single precision.
         return {solver, {row(convert(reference), 0)}};
     }
-    if (solver == "mesh" || solver == "bezier") {
+    if (solver == "mesh" || solver == "bezier" || solver == "ribbons") {
         return {solver, {row(convert(reference) - convert(shape_middle(shape)), 0)}};
     }
     if (const auto* surface = std::get_if<TubeSurface>(&shape)) {
@@ -242,6 +244,7 @@ std::array<double, 6> shape_bounds(const CutShape& shape) {
         std::array<double, 6> operator()(const MeshSurface& surface) const { return surface.mesh->bounds(); }
         std::array<double, 6> operator()(const BezierSurface& surface) const { return surface.mesh->bounds(); }
         std::array<double, 6> operator()(const TubeSurface& surface) const { return surface.tubes->bounds(); }
+        std::array<double, 6> operator()(const RibbonSurface& surface) const { return surface.ribbons->bounds(); }
         std::array<double, 6> operator()(const ArrowSurface& surface) const { return surface.arrows->bounds(); }
         std::array<double, 6> operator()(const Torus& torus) const {
             return box_of(torus.center, torus.major_radius + torus.minor_radius);

@@ -10,6 +10,7 @@
 #include "arithmetic/precision.glsl"
 #include "picture/view.glsl"
 #include "surface/descent.glsl"
+#include "surface/shear.glsl"
 
 // Cosine of the angle, and distance over the pixel's size, within which triangles are one sheet.
 #define CORE_SAME_SHEET elvis_real(0.97LF)
@@ -31,33 +32,6 @@ elvis_real core_edge_function(elvis_real a, elvis_real b, elvis_real c, elvis_re
         result = p_error - q_error;
     }
     return result;
-}
-
-elvis_real core_component(elvis_vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
-
-// The direction in which the ray is steepest, the two others, and how a point is sheared along it so that the ray becomes an axis.
-struct core_shear {
-    uint kx, ky, kz;
-    elvis_real scale, x, y;
-};
-
-core_shear core_shear_of(elvis_vec3 direction) {
-    const elvis_vec3 steep = abs(direction);
-    core_shear shear;
-    shear.kz = steep.x >= steep.y && steep.x >= steep.z ? 0u : steep.y >= steep.z ? 1u : 2u;
-    shear.kx = (shear.kz + 1u) % 3u;
-    shear.ky = (shear.kz + 2u) % 3u;
-    shear.scale = elvis_real(1) / core_component(direction, shear.kz);
-    shear.x = core_component(direction, shear.kx) * shear.scale;
-    shear.y = core_component(direction, shear.ky) * shear.scale;
-    return shear;
-}
-
-elvis_vec3 core_sheared(core_shear shear, elvis_vec3 point) {
-    const elvis_real z = core_component(point, shear.kz);
-    precise const elvis_real x = core_component(point, shear.kx) - shear.x * z;
-    precise const elvis_real y = core_component(point, shear.ky) - shear.y * z;
-    return elvis_vec3(x, y, z);
 }
 
 // Relative to the ray's origin.

@@ -2,6 +2,7 @@
 
 #include <core/arrows/even_points.hpp>
 #include <core/arrows/scene_arrows.hpp>
+#include <core/session/streamline_tubes.hpp>
 #include <tests/integrate/integrated.hpp>
 #include <tests/support/error_of.hpp>
 
@@ -192,6 +193,63 @@ TEST_CASE("Arrows stand on triangles of a file where they are in the volume") {
     CHECK(are_on);
     CHECK(closest(arrows) >= 0.25);
     CHECK(filled > 0.7);
+}
+
+TEST_CASE("Arrows stand on Bezier patches where they are in the volume") {
+    const GeneratedVolume volume = ball();
+    const TemporaryFile file("patch.bpt");
+    std::ofstream out(file.path());
+    // The first two coordinates are linear in u and v, the third one is 0.9 u^2.
+    out.precision(17);
+    out << "1\n3 3\n";
+    for (const auto& [x, height] :
+         {std::pair{-1.0, 0.0}, std::pair{-1 / 3.0, 0.0}, std::pair{1 / 3.0, 0.3}, std::pair{1.0, 0.9}}) {
+        for (const double y : {-1.0, -1 / 3.0, 1 / 3.0, 1.0}) {
+            out << x << ' ' << y << ' ' << height << '\n';
+        }
+    }
+    out.close();
+    const auto arrows = arrows_of(volume, R"({"type": "bezier", "file": ")" + file.path() + R"(", "name": "under"}, )" +
+                                              std::string(wanted) + R"(, "on": "under"})");
+    double off = 0;
+    for (const ArrowSet::Arrow& arrow : arrows) {
+        const double u = 0.5 + 0.5 * arrow.from[0];
+        off = std::max(off, std::abs(arrow.from[2] - 0.9 * u * u));
+    }
+    std::cout << arrows.size() << " arrows on a Bezier patch, off by " << off << '\n';
+    CHECK(arrows.size() > 30);
+    CHECK(off < 1e-14);
+    CHECK(closest(arrows) >= 0.25);
+    CHECK(largest_error(arrows, turned, square) < 1e-9);
+}
+
+TEST_CASE("Arrows stand on ribbons along streamlines") {
+    const GeneratedVolume volume = ball();
+    Scene scene = scene_of(nlohmann::json::parse(R"x({"version": 1, "surfaces": [
+        {"type": "streamlines", "flow": "0.4 * grad(x) + y * grad(z) - z * grad(y)", "seeds": [[0, 0, 0]], "ribbon_width": 0.8,
+         "name": "under"}, )x" + std::string(wanted) +
+                                                 R"(, "spacing": 0.15, "on": "under"}]})"),
+                           "scene.json");
+    StreamlineTubes ribbons;
+    SceneArrowSets sets;
+    const TaskControl control;
+    ribbons.provide(scene, *volume, cube, control);
+    sets.provide(scene, *volume, cube, control);
+    const auto& arrows = std::get<ArrowSurface>(std::get<CutShape>(scene.surfaces.back().geometry)).arrows->arrows;
+    double off = 0;
+    for (const ArrowSet::Arrow& arrow : arrows) {
+        const double turn = arrow.from[0] / 0.4;
+        off = std::max(off, std::abs(arrow.from[2] * std::cos(turn) - arrow.from[1] * std::sin(turn)));
+    }
+    std::cout << arrows.size() << " arrows on a helicoid, off by " << off << '\n';
+    CHECK(arrows.size() > 30);
+    // Pieces turn by three degrees.
+    CHECK(off < 1e-3);
+    CHECK(closest(arrows) >= 0.15);
+    scene.surfaces.front().is_shown = false;
+    scene.surfaces.front().geometry = CutShape(RibbonSurface{});
+    SceneArrowSets others;
+    CHECK_THAT(error_of([&] { others.provide(scene, *volume, cube, control); }), Contains("not drawn"));
 }
 
 TEST_CASE("Points on a plane that are chosen evenly are nearly a lattice of triangles") {

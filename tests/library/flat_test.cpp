@@ -132,6 +132,44 @@ elvis_integration over(elvis_domain domain, const char* field, bool is_flux = fa
 
 } // namespace
 
+TEST_CASE("Arrows stand on elements of two dimensions") {
+    const context library = own_context();
+    const data flat = bent_rectangle(library);
+    const auto drawn = [&](const char* arrows, const char* precision) {
+        scene shown = library.make_scene();
+        shown.set("/image/size", "[160, 120]");
+        shown.set("/precision", precision);
+        shown.set("/camera", R"({"eye": [1.2, 0.9, 5], "look_at": [1.2, 0.9, 0], "up": [0, 1, 0], "field_of_view": 30})");
+        shown.set("/surfaces/-", R"({"type": "elements", "name": "all"})");
+        shown.set("/surfaces/-", arrows);
+        return flat.render(shown);
+    };
+    for (const char* const arrows : {R"({"type": "arrows", "vectors": "u", "field": "p", "spacing": 0.3})",
+                                     R"({"type": "arrows", "vectors": "u", "field": "p", "spacing": 0.3, "on": "all"})"}) {
+        const picture with = drawn(arrows, "\"float64\"");
+        const std::vector<double> depths = with.read<double>(ELVIS_CHANNEL_DEPTH),
+                                  normals = with.read<double>(ELVIS_CHANNEL_NORMAL),
+                                  values = with.read<double>(ELVIS_CHANNEL_VALUE);
+        const std::vector<std::int64_t> elements = with.read<std::int64_t>(ELVIS_CHANNEL_ELEMENT);
+        std::size_t n_arrow = 0, n_flat = 0;
+        bool has_values = true;
+        for (std::size_t pixel = 0; pixel < depths.size(); ++pixel) {
+            if (elements[pixel] < 0) {
+                continue;
+            }
+            // Arrows rise above the plane.
+            const bool is_flat = std::abs(normals[3 * pixel + 2]) > 1 - 1e-12;
+            n_flat += is_flat ? 1 : 0;
+            n_arrow += is_flat ? 0 : 1;
+            has_values = has_values && values[pixel] > -1e-9 && values[pixel] < 2.35 * 2.0 + 2.35;
+        }
+        std::cout << n_arrow << " pixels of arrows, " << n_flat << " of the plane\n";
+        CHECK(has_values);
+        CHECK(n_arrow > 100);
+        CHECK(n_flat > 2 * n_arrow);
+    }
+}
+
 TEST_CASE("Elements of two dimensions are a mesh, and lines on them contours") {
     const context library = own_context();
     const data flat = bent_rectangle(library);

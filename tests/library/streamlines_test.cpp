@@ -58,6 +58,41 @@ TEST_CASE("The tube about a straight streamline is a cylinder") {
     }
 }
 
+TEST_CASE("The ribbon about the axis of a rotation is a helicoid") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume =
+        library.open(convert(library, folder, R"({"generator": 1, "mesh": "box", "elements": [3, 3, 3], "field": "sphere"})"));
+    for (const auto& [precision, tolerance] : {std::pair{"float32", 2e-4}, std::pair{"float64", 2e-4}}) {
+        // It lies along y at the seed, and turns by a radian in a length of 0.4.
+        const picture ribbon = volume.render(with_surface(
+            library, R"s({"type": "streamlines", "flow": "0.4 * grad(x) + y * grad(z) - z * grad(y)", "seeds": [[0, 0, 0]],
+                          "ribbon_width": 0.8})s",
+            precision));
+        scene formula =
+            with_surface(library, R"s({"type": "implicit", "expression": "z*cos(x/0.4) - y*sin(x/0.4)"})s", precision);
+        const picture helicoid = volume.render(formula);
+        const std::vector<double> of_ribbon = ribbon.read<double>(ELVIS_CHANNEL_DEPTH),
+                                  of_helicoid = helicoid.read<double>(ELVIS_CHANNEL_DEPTH);
+        std::size_t n_ribbon = 0, n_both = 0;
+        double largest = 0;
+        for (std::size_t pixel = 0; pixel < of_ribbon.size(); ++pixel) {
+            // The helicoid goes on beyond the ribbon, and hides parts of it.
+            const bool is_behind = std::isfinite(of_ribbon[pixel]) && of_ribbon[pixel] > of_helicoid[pixel] + 0.01;
+            n_ribbon += std::isfinite(of_ribbon[pixel]) ? 1 : 0;
+            if (std::isfinite(of_ribbon[pixel]) && !is_behind) {
+                ++n_both;
+                largest = std::max(largest, std::abs(of_ribbon[pixel] - of_helicoid[pixel]));
+            }
+        }
+        std::cout << precision << ": " << n_ribbon << " pixels of the ribbon, " << n_both << " not hidden, depths differ by "
+                  << largest << "; " << ribbon.info().n_undecided_pixels << " undecided\n";
+        CHECK(n_both > 500);
+        CHECK(largest < tolerance);
+        CHECK(ribbon.info().n_undecided_pixels < 20);
+    }
+}
+
 TEST_CASE("Streamlines from a grid are drawn, and colours of another field are on them") {
     const context library(own_plugins());
     const TemporaryFolder folder;

@@ -115,8 +115,8 @@ TEST_CASE("What cannot be drawn in parts is refused") {
                std::string::npos;
     };
     CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5}])"));
-    CHECK(refused(R"("lic": {"field": "velocity"})"));
-    CHECK(refused(R"("surfaces": [{"type": "boundary", "lic": {"field": "velocity"}}])"));
+    CHECK(refused(R"("threshold": "sphere > 0.2", "lic": {"field": "velocity"})"));
+    CHECK(refused(R"("surfaces": [{"type": "boundary", "clip": [[1, 0, 0, 0]], "lic": {"field": "velocity"}}])"));
     CHECK(refused(R"("surfaces": [{"type": "elements"}])"));
-    CHECK(refused(R"("surfaces": [{"type": "wireframe"}])"));
+    CHECK(refused(R"("surfaces": [{"type": "wireframe", "shapes": ["hexahedron"]}])"));
 }

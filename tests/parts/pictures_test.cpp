@@ -173,6 +173,7 @@ TEST_CASE("Arrows, streamlines and pathlines in parts are those of the whole") {
          {std::pair{"arrows on the boundary", with(R"({"type": "arrows", "vectors": "velocity", "on": "wall", "scale": 0.3})")},
           std::pair{"arrows in the volume", with(R"({"type": "arrows", "vectors": "velocity", "field": "pressure"})")},
           std::pair{"streamlines", with(R"({"type": "streamlines", "flow": "velocity", "radius": 0.03, "seed_grid": 3})")},
+          std::pair{"ribbons", with(R"({"type": "streamlines", "flow": "velocity", "ribbon_width": 0.1, "seed_grid": 3})")},
           std::pair{"pathlines", with(R"({"type": "pathlines", "flow": "velocity", "radius": 0.03, "seed_grid": 3})")}}) {
         const Scene scene = stage.scene(keys);
         Scene whole = scene;
@@ -184,6 +185,30 @@ TEST_CASE("Arrows, streamlines and pathlines in parts are those of the whole") {
         arrows.provide(whole, stage.volume(), bounds, control);
         compare({name, keys.c_str()}, 3, stage.as_whole(whole), stage.in_parts(scene, 3));
     }
+}
+
+TEST_CASE("Streaks in parts are those of the whole") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    const std::string lic =
+        R"s(, "lighting": "default", "lic": {"length": 12, "field": "y*grad(x) - x*grad(y) + 0.5*grad(z)"})s";
+    const std::string plane = R"({"type": "plane", "plane": [0.3, 0.25, 1, 0.05]})";
+    const std::string isosurface = R"({"type": "isosurface", "values": [0.3]})";
+    for (const auto& [name, shown] :
+         {std::pair{"streaks on a plane", plane}, std::pair{"streaks on the boundary", std::string(R"({"type": "boundary"})")},
+          std::pair{"streaks on an isosurface", isosurface}, std::pair{"streaks on two surfaces", plane + ", " + isosurface}}) {
+        const std::string keys = "\"surfaces\": [" + shown + "]" + lic;
+        compare(stage, {name, keys.c_str()}, 4);
+    }
+}
+
+TEST_CASE("Edges of the boundary in parts are those of the whole") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "shape": "mixed", "elements": [4, 2, 2], "order": 2, "field": "waves"})");
+    compare(stage, {"edges", R"("surfaces": [{"type": "wireframe"}])"}, 4);
+    compare(
+        stage,
+        {"wide edges behind a plane",
+         R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}, {"type": "wireframe", "width": 3, "color": [1, 0, 0]}])"},
+        5);
 }
 
 TEST_CASE("Parts without elements change nothing") {

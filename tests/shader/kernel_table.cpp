@@ -132,6 +132,7 @@ void add_cut_kernels(std::vector<KernelUse>& uses) {
     add_surface("mesh", {"core_triangles", "core_nodes"}, no("CORE_HAS_ENDS"), "");
     add_surface("bezier", {"core_patches (reals)", "core_nodes"}, no("CORE_HAS_ENDS"), "");
     add_surface("tubes", {"core_tubes (reals)", "core_nodes"}, no("CORE_HAS_ENDS"), "");
+    add_surface("ribbons", {"core_ribbons (reals)", "core_nodes"}, no("CORE_HAS_ENDS"), "");
     add_surface("arrows", {"core_arrows (reals)", "core_arrow_numbers", "core_nodes"}, no("CORE_HAS_ENDS"), "");
     add_surface("implicit", {}, no("CORE_HAS_ENDS"), implicit_glsl(Expression::implicit("sin(x) + max(y, z^2)")));
 }

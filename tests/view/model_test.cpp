@@ -2,6 +2,7 @@
 
 #include <apps/elvis/view/model/histogram.hpp>
 #include <apps/elvis/view/model/model.hpp>
+#include <apps/elvis/view/model/second_view.hpp>
 #include <apps/elvis/view/model/settings.hpp>
 #include <apps/elvis/view/scene/camera_motion.hpp>
 #include <apps/elvis/view/scene/handles.hpp>
@@ -273,6 +274,65 @@ TEST_CASE("Everything that can be added can be hidden, copied, removed, and writ
         remove(scene, copy);
         CHECK(items_of(scene).size() == (info.item == NewItem::volume ? 0u : 1u));
     }
+}
+
+TEST_CASE("A second view has its own camera once it is unlinked, and its own choice of items") {
+    Model model = opened();
+    const auto add_item = [&](NewItem item) {
+        Scene scene = model.scene();
+        add(scene, *model.volume(), item, 0.5);
+        model.edit("add", std::move(scene));
+        model.end_gesture();
+    };
+    add_item(NewItem::cut_plane);
+    SecondView second;
+    second.turn_on(model);
+    second.set_size({300, 200});
+    second.follow(model);
+    CHECK(size_of(second.scene()) == std::array<std::uint32_t, 2>{300, 200});
+    const auto orbit = [&](const Camera& camera) { return orbited(camera, {300, 200}, {40, 10}); };
+
+    second.set_camera(model, orbit(second.camera(model)));
+    CHECK(second.camera(model).eye == model.camera().eye);
+    second.set_linked(model, false);
+    const Camera first = model.camera();
+    second.set_camera(model, orbit(first));
+    second.follow(model);
+    CHECK(model.camera().eye == first.eye);
+    CHECK(camera_of(part_of(second.scene(), "camera")).eye == orbit(first).eye);
+    // What the first view alone shows is nothing new.
+    const std::uint64_t revision = second.revision();
+    model.set_camera(orbit(orbit(first)));
+    second.follow(model);
+    CHECK(second.revision() == revision);
+
+    second.set_shown(1, false);
+    second.follow(model);
+    const auto shown = [&] {
+        std::vector<bool> all;
+        for (const ItemId& item : items_of(second.scene())) {
+            all.push_back(is_shown(second.scene(), item));
+        }
+        return all;
+    };
+    CHECK(is_shown(model.scene(), items_of(model.scene())[1]));
+    CHECK(shown() == std::vector<bool>{true, false});
+    add_item(NewItem::isosurface);
+    second.follow(model);
+    CHECK(shown() == std::vector<bool>{true, false, true});
+    Scene changed = model.scene();
+    changed["surfaces"][1]["plane"] = {1, 0, 0, 0.25};
+    model.edit("move", std::move(changed));
+    second.follow(model);
+    CHECK(shown() == std::vector<bool>{true, false, true});
+    Scene fewer = model.scene();
+    remove(fewer, items_of(fewer)[0]);
+    model.edit("remove", std::move(fewer));
+    second.follow(model);
+    CHECK(shown() == std::vector<bool>{false, true});
+    model.undo();
+    second.follow(model);
+    CHECK(shown() == std::vector<bool>{true, false, true});
 }
 
 TEST_CASE("A scene of another size has what is looked at in the same place, and cameras that are said stay") {

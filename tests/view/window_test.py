@@ -54,7 +54,11 @@ def opens_by_dialog(window):
 def orbits(window):
     before = window.screen()["scene"]["camera"]
     stages = set()
-    window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: stages.add(screen["stage"]))
+    # Where others are at work, pictures may all come late.
+    for _ in range(8):
+        window.drag(window.place("view"), (160, 70), steps=25, during=lambda screen: stages.add(screen["stage"]))
+        if "moving" in stages:
+            break
     window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != before["eye"], "the camera to move")
     screen = window.settle()
     after = screen["scene"]["camera"]
@@ -389,6 +393,45 @@ def edits_lines_arrows_and_what_is_shown_of_the_volume(window):
     window.settle()
 
 
+def box_of(screen, name):
+    left, top, right, bottom = (int(x) for x in screen["places"][name])
+    return left, top, right - left, bottom - top
+
+
+def shows_two_views(window):
+    """Of one camera while they are linked; each with its own items."""
+    window.key("ctrl+2")
+    window.wait_for(lambda screen: screen["second"] and screen["second"]["stage"] == "exact", "the second view")
+    screen = window.settle()
+    before = screen["scene"]["camera"]
+    require(screen["second"]["scene"]["camera"] == before, "the views do not begin with one camera")
+    window.drag(window.place("second view"), (60, 30))
+    window.wait_for(lambda screen: screen["scene"]["camera"]["eye"] != before["eye"], "the first view to follow")
+    screen = window.settle()
+    linked = screen["scene"]["camera"]
+    require(screen["second"]["scene"]["camera"] == linked, "linked views have two cameras")
+    window.picture("two.png")
+    # But for the marks in their corners.
+    parts = [(left + 5, top + height // 3, width - 10, height // 2)
+             for left, top, width, height in (box_of(screen, "view"), box_of(screen, "second view"))]
+    require(pixels("two.png", parts[0]) == pixels("two.png", parts[1]), "linked views show two pictures")
+    window.key("ctrl+l")
+    window.wait_for(lambda screen: not screen["second"]["linked"], "the cameras to be unlinked")
+    window.drag(window.place("second view"), (-50, 20))
+    window.wait_for(lambda screen: screen["second"]["scene"]["camera"] != linked, "the second view to turn")
+    window.click("item/0/shown in second")
+    window.wait_for(lambda screen: screen["second"]["scene"]["surfaces"][0].get("visible") is False, "the boundary to go")
+    screen = window.settle()
+    require(screen["scene"]["camera"] == linked, "the first view has turned, too")
+    require(screen["scene"]["surfaces"][0].get("visible") is not False, "the boundary has gone from the first view, too")
+    window.picture("unlinked.png")
+    require(set(pixels("unlinked.png", parts[1])[2]) == {255}, "the second view still shows something")
+    require(set(pixels("unlinked.png", parts[0])[2]) != {255}, "the first view shows nothing")
+    window.key("ctrl+2")
+    window.wait_for(lambda screen: screen["second"] is None, "one view alone")
+    window.settle()
+
+
 def hides_all(window, elvis):
     """What is seen then is the background, and so it is for elvis render."""
     window.click("item/0/shown")
@@ -456,6 +499,7 @@ def main(elvis, folder):
             found, wanted = pasted(window)[:60], table.translate(without_tabs)[:60]
             require(found == wanted, f"the clipboard holds '{found}' in place of '{wanted}'")
         edits_lines_arrows_and_what_is_shown_of_the_volume(window)
+        shows_two_views(window)
         hides_all(window, elvis)
         quits(window)
     finally:

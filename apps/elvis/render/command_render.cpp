@@ -193,6 +193,11 @@ void add_render(CLI::App& app, DivisibleTeam* team) {
         ->check(finite_number());
     command->add_option("--pathlines", a->pathlines,
                         "Tubes along the ways of points that move with this vector field through all time steps");
+    command
+        ->add_option("--ribbons", a->ribbon_width,
+                     "--streamlines and --pathlines are ribbons of this width, which turn with the flow, in place of tubes")
+        ->check(CLI::PositiveNumber)
+        ->check(finite_number());
     add_lines_and_colors(*command, *a);
     add_camera(*command, *a);
     add_picture(*command, *a);

@@ -73,6 +73,17 @@ bool has_lines(const RenderArguments& arguments) {
     return !arguments.streamlines.empty() || !arguments.pathlines.empty() || !arguments.arrows.empty();
 }
 
+void apply_streamlines(const char* type, const std::string& flow, double ribbon_width, Document& scene) {
+    if (flow.empty()) {
+        return;
+    }
+    json lines = {{"type", type}, {"flow", flow}};
+    if (ribbon_width > 0) {
+        lines["ribbon_width"] = ribbon_width;
+    }
+    scene.set("/surfaces/-", lines);
+}
+
 /** Surfaces of the command line stand instead of those of the file. */
 void apply_surfaces(const RenderArguments& arguments, Document& scene) {
     if (!arguments.cut_planes.empty() || arguments.boundary || !arguments.isovalues.empty() || has_lines(arguments)) {
@@ -98,12 +109,8 @@ void apply_surfaces(const RenderArguments& arguments, Document& scene) {
         std::sort(values.begin(), values.end());
         scene.set("/surfaces/-", {{"type", "isosurface"}, {"values", values}});
     }
-    if (!arguments.streamlines.empty()) {
-        scene.set("/surfaces/-", {{"type", "streamlines"}, {"flow", arguments.streamlines}});
-    }
-    if (!arguments.pathlines.empty()) {
-        scene.set("/surfaces/-", {{"type", "pathlines"}, {"flow", arguments.pathlines}});
-    }
+    apply_streamlines("streamlines", arguments.streamlines, arguments.ribbon_width, scene);
+    apply_streamlines("pathlines", arguments.pathlines, arguments.ribbon_width, scene);
     apply_arrows(arguments, scene);
     if (arguments.undeformed_edges) {
         if (!scene.has("/warp")) {

@@ -45,6 +45,7 @@ struct RenderArguments {
     std::vector<double> isovalues;
     /** The vector field. */
     std::string streamlines, pathlines;
+    double ribbon_width = 0; ///< 0: tubes
     std::string arrows;
     double arrow_spacing = 0;
     std::string volume;

@@ -204,9 +204,9 @@ class Volume:
             return Volume(self._handle.warp(field, factor, imaginary, phase, time_step, report), self.path, {})
 
     def join(self, others: Mapping[str, "Volume"], *, time_steps: Mapping[str, int] | None = None, progress: Progress = True) -> "Volume":
-        """The volume with the fields of others beside its own, as NAME.FIELD: `v.join({"b": w})` has p and b.p, and p - b.p is exact.
+        """The volume with the fields of others beside its own, as NAME.FIELD: `v.join({"b": w})` has p and b.p.
 
-        others: by name; they have the same elements. One may be this volume itself, at another time step. time_steps: by name, the
+        others: by name. With the same elements p - b.p is exact; with others b.p is found by place, and NaN where b is not. One may be this volume itself, at another time step. time_steps: by name, the
         step that is shown at each time; without, the same one, or the only one there is.
         """
         steps = dict(time_steps or {})

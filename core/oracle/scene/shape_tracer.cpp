@@ -121,6 +121,7 @@ std::vector<ShapePart> parts_of(const ImplicitSurface& surface) {
 }
 std::vector<ShapePart> parts_of(const BezierSurface&) { return {}; }
 std::vector<ShapePart> parts_of(const TubeSurface&) { return {}; }
+std::vector<ShapePart> parts_of(const RibbonSurface&) { return {}; }
 std::vector<ShapePart> parts_of(const ArrowSurface&) { return {}; }
 
 /** A ball that holds a shape with an end. */

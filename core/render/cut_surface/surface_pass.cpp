@@ -46,18 +46,23 @@ bool is_endless(const CutShape& shape) {
 } // namespace
 
 SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_device(device), m_data(data), m_precision(data.precision()), m_listed(device),
+    : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_listed(device),
       m_frame(view_buffer(device, data.precision())), m_hit_counts(device, sizeof(std::uint32_t)),
       m_counts(device, (n_pass_counts + 1) * sizeof(std::uint32_t)), m_nothing(device, 4 * sizeof(double)),
-      m_others(device, data), m_open(device, volume, data, false) {
-    for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
-        if (volume.classes()[index].n_elements == 0) {
+      m_others(device, data), m_open(device, volume, data, false) {}
+
+void SurfacePass::provide_elements() {
+    if (!m_kernels.empty()) {
+        return;
+    }
+    for (std::uint32_t index = 0; index < m_volume.classes().size(); ++index) {
+        if (m_volume.classes()[index].n_elements == 0) {
             continue;
         }
         KernelRequest request;
         request.precision = m_precision;
-        request.buffers = data.host_buffers(index);
-        request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width_on(device)) + "u"},
+        request.buffers = m_data.host_buffers(index);
+        request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width_on(m_device)) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(surface_tile_height) + "u"}};
         request.name = "surface_tiles";
         request.kernel = "cut_surface/surface_tiles.comp";
@@ -65,17 +70,17 @@ SurfacePass::SurfacePass(const Device& device, const RuntimeVolume& volume, cons
         request.push_constant_bytes = sizeof(TilesParameters);
         ClassKernels kernels;
         kernels.element_class = index;
-        kernels.tiles = std::make_unique<ComposedKernel>(device, request);
+        kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
         std::ranges::copy(m_open.buffers(index), std::back_inserter(request.buffers));
 
         request.name = "surface_pixels of element class " + std::to_string(index);
         request.kernel = "cut_surface/surface_pixels.comp";
-        data.add_field(request, index);
-        request.defines.emplace_back("CORE_OVERLAPS", data.has_overlaps() ? "1" : "0");
+        m_data.add_field(request, index);
+        request.defines.emplace_back("CORE_OVERLAPS", m_data.has_overlaps() ? "1" : "0");
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
         request.bindings = buffer_bindings({.uniform = 1, .storage = 10});
         request.push_constant_bytes = sizeof(PointParameters);
-        kernels.pixels = std::make_unique<ComposedKernel>(device, request);
+        kernels.pixels = std::make_unique<ComposedKernel>(m_device, request);
         m_kernels.push_back(std::move(kernels));
     }
 }

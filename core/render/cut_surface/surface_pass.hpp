@@ -23,10 +23,13 @@
 
 namespace elvis {
 
-/** The kernels of one volume and field that find elements, two for each element class. Compiled when constructed. */
+/** The kernels of one volume and field that find elements, two for each element class. */
 class SurfacePass {
 public:
     SurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
+
+    /** Compiles what finds the elements of crossings: before draw(), unless the solver has values of its own. */
+    void provide_elements();
 
     /**
      * Draws one surface, whose solver this is, as number `surface`, at least 1; adds to the counts. `view` is the geometry of
@@ -54,6 +57,7 @@ private:
     void provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles, std::uint32_t boxes_a_tile);
 
     const Device& m_device;
+    const RuntimeVolume& m_volume;
     const DeviceVolume& m_data;
     Precision m_precision;
     std::vector<ClassKernels> m_kernels;

@@ -28,7 +28,8 @@ SolverKind kind_of(const std::string& solver) {
     if (solver == "round") {
         return {"quadric", {{"CORE_HAS_ENDS", "1"}}};
     }
-    if (solver == "mesh" || solver == "bezier" || solver == "tubes" || solver == "arrows" || solver == "implicit") {
+    if (solver == "mesh" || solver == "bezier" || solver == "tubes" || solver == "ribbons" || solver == "arrows" ||
+        solver == "implicit") {
         return {solver, {}, 4};
     }
     return {solver, {{"CORE_HAS_ENDS", "0"}}};
@@ -124,6 +125,8 @@ std::string solver_key(const CutShape& shape) {
         key << ' ' << static_cast<const void*>(patches->mesh.get());
     } else if (const auto* tubes = std::get_if<TubeSurface>(&shape)) {
         key << ' ' << static_cast<const void*>(tubes->tubes.get());
+    } else if (const auto* ribbons = std::get_if<RibbonSurface>(&shape)) {
+        key << ' ' << static_cast<const void*>(ribbons->ribbons.get());
     } else if (const auto* arrows = std::get_if<ArrowSurface>(&shape)) {
         key << ' ' << static_cast<const void*>(arrows->arrows.get());
     }
@@ -164,6 +167,10 @@ SurfaceSolver::SurfaceSolver(const Device& device, Precision precision, const Cu
         m_mesh = tubes->tubes;
         upload(*tubes->tubes, shape_middle(shape));
         request.buffers = {{"core_tubes", m_items.get()}, {"core_nodes", m_nodes.get()}};
+    } else if (const auto* ribbons = std::get_if<RibbonSurface>(&shape)) {
+        m_mesh = ribbons->ribbons;
+        upload(*ribbons->ribbons, shape_middle(shape));
+        request.buffers = {{"core_ribbons", m_items.get()}, {"core_nodes", m_nodes.get()}};
     } else if (const auto* arrows = std::get_if<ArrowSurface>(&shape)) {
         m_mesh = arrows->arrows;
         upload(*arrows->arrows, shape_middle(shape));
@@ -231,6 +238,20 @@ void SurfaceSolver::upload(const TubeSet& tubes, const Vector3& middle) {
     upload_nodes(boxes, middle);
     m_items = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, tubes.pieces.size(), 12);
     m_items->write_reals(0, points);
+}
+
+void SurfaceSolver::upload(const RibbonSet& ribbons, const Vector3& middle) {
+    std::vector<double> corners, boxes;
+    for (const RibbonSet::Piece& piece : ribbons.pieces) {
+        Box box;
+        for (const Vector3& corner : piece) {
+            add_point(corner, middle, box, corners);
+        }
+        add_box(box, middle, boxes);
+    }
+    upload_nodes(boxes, middle);
+    m_items = std::make_unique<RecordBuffer>(m_device, RecordKind::real, m_precision, ribbons.pieces.size(), 12);
+    m_items->write_reals(0, corners);
 }
 
 void SurfaceSolver::upload(const ArrowSet& set, const Vector3& middle) {

@@ -59,6 +59,7 @@ private:
     void upload(const TriangleMesh& mesh, const Vector3& middle);
     void upload(const PatchMesh& mesh, const Vector3& middle);
     void upload(const TubeSet& tubes, const Vector3& middle);
+    void upload(const RibbonSet& ribbons, const Vector3& middle);
     void upload(const ArrowSet& set, const Vector3& middle);
     void upload_nodes(std::span<const double> boxes, const Vector3& middle);
 

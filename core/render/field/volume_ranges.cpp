@@ -1,3 +1,4 @@
+#include <core/render/field/chosen_values.hpp>
 #include <core/render/field/field_range.hpp>
 #include <core/render/field/sampled_range.hpp>
 #include <core/render/field/volume_ranges.hpp>
@@ -101,6 +102,9 @@ const FieldExtrema& VolumeRanges::extrema(const FieldChoice& field, std::uint32_
 }
 
 FieldExtrema VolumeRanges::found_extrema(const FieldChoice& field, std::uint32_t time_step) {
+    if (is_by_place(field, m_volume)) {
+        return extrema_by_place(m_volume, field, time_step);
+    }
     if (field.expression) {
         m_data.select(selection(field, time_step));
         return extrema_from_samples(m_device, m_volume, m_data, 0, 1);
@@ -152,6 +156,9 @@ void VolumeRanges::set_error(const FieldChoice& expression, std::uint32_t time_s
 }
 
 double VolumeRanges::value_rounding(const FieldChoice& field, std::uint32_t time_step) {
+    if (is_by_place(field, m_volume)) {
+        return rounding_by_place(m_volume, field, time_step);
+    }
     if (!field.expression && (field.component >= 0 || field.is_own_boundary)) {
         return 0;
     }

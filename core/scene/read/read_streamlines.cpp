@@ -48,6 +48,9 @@ SceneStreamlines read_streamlines(const JsonObject& object) {
     if (object.has("radius")) {
         lines.radius = object.number("radius");
     }
+    if (object.has("ribbon_width")) {
+        lines.ribbon_width = object.number("ribbon_width");
+    }
     return lines;
 }
 

@@ -134,8 +134,8 @@ SceneSurface read_surface(const JsonObject& object, const std::string& type, con
             surface.color_field = object.text("color_field");
         }
     } else if (type == "streamlines" || type == "pathlines") {
-        surface.geometry = TubeSurface{};
         surface.streamlines = type == "streamlines" ? read_streamlines(object) : read_pathlines(object);
+        surface.geometry = surface.streamlines->ribbon_width ? CutShape(RibbonSurface{}) : CutShape(TubeSurface{});
         if (object.has("color")) {
             surface.color_map = uniform_color_map(fixed<3>(object.numbers("color")));
         }

@@ -96,6 +96,9 @@ SceneJson shape_json(const CutShape& shape, const std::string& scene) {
                    [](const TubeSurface&) {
                        return SceneJson{{"type", "streamlines"}};
                    },
+                   [](const RibbonSurface&) {
+                       return SceneJson{{"type", "streamlines"}};
+                   },
                    [](const ArrowSurface&) {
                        return SceneJson{{"type", "arrows"}};
                    }},
@@ -114,6 +117,7 @@ void add_streamlines(SceneJson& json, const SceneStreamlines& lines) {
     set(json, "length", lines.length);
     json["tolerance"] = lines.tolerance;
     set(json, "radius", lines.radius);
+    set(json, "ribbon_width", lines.ribbon_width);
     if (lines.times) {
         json["type"] = "pathlines";
         set(json, "start_time", lines.times->start);

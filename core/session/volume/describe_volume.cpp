@@ -145,7 +145,7 @@ void describe_range(const RuntimeVolume& volume, ExtremaFinder& extrema, std::ui
 
 /** What encloses the field's values: what pictures leave out by. */
 void describe_enclosure(const RuntimeVolume& volume, std::uint32_t field, std::uint32_t time_step, ordered_json& entry) {
-    if (volume.has_field_ranges()) {
+    if (volume.has_field_ranges() && !volume.fields()[field].is_by_place) {
         elvis_certainty certainty = ELVIS_ESTIMATED;
         entry["enclosure_by_component"] = enclosures(volume, field, time_step, certainty);
         entry["enclosure_certainty"] = certainty == ELVIS_CERTIFIED ? "certified" : "sampled";

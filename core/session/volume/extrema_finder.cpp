@@ -1,11 +1,12 @@
 #include <core/session/volume/extrema_finder.hpp>
 
+#include <core/render/field/chosen_values.hpp>
 #include <core/volume/field/field_extrema.hpp>
 
 namespace elvis {
 
 FieldExtrema ExtremaFinder::of(const FieldChoice& field, std::uint32_t time_step) {
-    if (!field.expression) {
+    if (!field.expression && !is_by_place(field, m_volume)) {
         if (const auto found = find_extrema(m_volume, field.field, field.component, time_step)) {
             return *found;
         }

@@ -63,9 +63,9 @@ std::string FrameWorker::activity() const {
     return m_activity;
 }
 
-std::optional<FrameSchedule::Step> FrameWorker::drawing() const {
+std::optional<DrawnStep> FrameWorker::drawing() const {
     const std::lock_guard lock(m_mutex);
-    return m_wanted ? std::optional(m_wanted->step) : m_drawing;
+    return m_wanted ? std::optional(m_wanted->of) : m_drawing;
 }
 
 CancelTimes FrameWorker::cancel_times() const {
@@ -89,10 +89,10 @@ std::optional<DrawAnswer> FrameWorker::collect() {
 
 DrawAnswer FrameWorker::drawn(const DrawRequest& request) {
     DrawAnswer answer;
-    answer.step = request.step;
+    answer.of = request.of;
     answer.revision = request.revision;
     try {
-        answer.picture = m_session->draw(request.scene, request.step);
+        answer.picture = m_session->draw(request.scene, request.of.step);
         answer.picture.camera = camera_of(part_of(request.scene, "camera"));
     } catch (const cancelled&) {
         throw;
@@ -124,7 +124,7 @@ void FrameWorker::do_task(std::unique_lock<std::mutex>& lock) {
 void FrameWorker::draw_wanted(std::unique_lock<std::mutex>& lock) {
     const DrawRequest request = std::move(*m_wanted);
     m_wanted.reset();
-    m_drawing = request.step;
+    m_drawing = request.of;
     m_activity = "drawing";
     lock.unlock();
     std::optional<DrawAnswer> answer;

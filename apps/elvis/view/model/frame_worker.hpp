@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -19,10 +20,16 @@
 
 namespace elvis::view {
 
+/** A picture of one of the views, at a stage. */
+struct DrawnStep {
+    std::size_t view = 0;
+    FrameSchedule::Step step;
+};
+
 /** A picture that is wanted. */
 struct DrawRequest {
     Scene scene;
-    FrameSchedule::Step step;
+    DrawnStep of;
     /** What the window knows the scene by. */
     std::uint64_t revision = 0;
 };
@@ -30,7 +37,7 @@ struct DrawRequest {
 /** What came of it. */
 struct DrawAnswer {
     Picture picture;
-    FrameSchedule::Step step;
+    DrawnStep of;
     std::uint64_t revision = 0;
     /** If not empty, there is no picture. */
     std::string error;
@@ -69,7 +76,7 @@ public:
     /** What is being done now; empty if nothing. */
     std::string activity() const;
     /** Of the picture that waits, or else is being drawn and was not cancelled. */
-    std::optional<FrameSchedule::Step> drawing() const;
+    std::optional<DrawnStep> drawing() const;
     CancelTimes cancel_times() const;
 
     /** Calls the answers that have come, and returns the last picture among them. */
@@ -92,7 +99,7 @@ private:
     std::condition_variable_any m_changed;
     std::deque<Task> m_tasks, m_later_tasks;
     std::optional<DrawRequest> m_wanted;
-    std::optional<FrameSchedule::Step> m_drawing;
+    std::optional<DrawnStep> m_drawing;
     std::optional<std::chrono::steady_clock::time_point> m_cancelled;
     CancelTimes m_cancel_times;
     std::string m_activity;

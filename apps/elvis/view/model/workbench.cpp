@@ -76,8 +76,11 @@ void Workbench::show(Scene scene, VolumeFacts facts, const std::string& file, co
     m_line_key.clear();
     stop_numbers();
     m_numbers.clear();
-    m_picture = {};
-    m_stage = FrameStage::none;
+    for (ShownView& view : m_views) {
+        view.picture = {};
+        view.stage = FrameStage::none;
+    }
+    m_second.turn_off();
     say(Message::Kind::info,
         "opened " + path + ": " + counted(facts.n_elements, "element") + ", " + counted(facts.fields.size(), "field"));
     try {
@@ -126,8 +129,8 @@ void Workbench::save_picture(const std::string& path, const std::array<std::uint
         [this](const std::string& error) { say(Message::Kind::error, error); });
 }
 
-void Workbench::pick(const PicturePoint& place) {
-    const Scene& scene = m_model.scene();
+void Workbench::pick(const PicturePoint& place, std::size_t view) {
+    const Scene& scene = scene_of(view);
     m_worker.post(
         "picking",
         [this, scene, place, number = m_volume_number](Session& session) -> FrameWorker::Answer {
@@ -336,23 +339,45 @@ void Workbench::convert(const std::string& input, const std::string& output) {
     m_conversion.start({input}, output);
 }
 
+void Workbench::turn_on_second() {
+    if (m_model.volume()) {
+        m_second.turn_on(m_model);
+        m_views[1] = {};
+    }
+}
+
+void Workbench::turn_off_second() {
+    m_second.turn_off();
+    m_views[1] = {};
+}
+
 void Workbench::take(DrawAnswer answer, double showing_milliseconds) {
-    const Clock::time_point now = Clock::now();
-    if (!answer.error.empty()) {
-        if (m_drawing_error != answer.error) {
-            say(Message::Kind::error, answer.error);
-        }
-        m_drawing_error = answer.error;
-        m_failed_revision = answer.revision;
+    ShownView& view = m_views[answer.of.view];
+    if (answer.of.view >= n_views()) {
         return;
     }
-    m_drawing_error.clear();
-    m_picture = std::move(answer.picture);
-    m_schedule.drawn(answer.step, m_picture.is_refinable, m_picture.milliseconds + showing_milliseconds);
-    const bool is_full = answer.step.stage == FrameStage::full;
-    m_stage = is_full && !m_picture.is_refinable ? FrameStage::exact : answer.step.stage;
-    m_divisor = answer.step.divisor;
-    m_shown_revision = answer.revision;
+    if (!answer.error.empty()) {
+        if (view.error != answer.error) {
+            say(Message::Kind::error, answer.error);
+        }
+        view.error = answer.error;
+        view.failed_revision = answer.revision;
+        return;
+    }
+    view.error.clear();
+    view.picture = std::move(answer.picture);
+    const FrameSchedule::Step& step = answer.of.step;
+    view.schedule.drawn(step, view.picture.is_refinable, view.picture.milliseconds + showing_milliseconds);
+    view.stage = step.stage == FrameStage::full && !view.picture.is_refinable ? FrameStage::exact : step.stage;
+    view.divisor = step.divisor;
+    view.shown_revision = answer.revision;
+    note_motion(answer.of.view, step.stage, Clock::now());
+}
+
+void Workbench::note_motion(std::size_t view, FrameStage drawn, Clock::time_point now) {
+    if (view != 0) {
+        return;
+    }
     if (m_was_moving) {
         if (m_last_moving_picture) {
             m_motion.frame_seconds.push_back(seconds_between(*m_last_moving_picture, now));
@@ -362,10 +387,10 @@ void Workbench::take(DrawAnswer answer, double showing_milliseconds) {
         }
         m_last_moving_picture = now;
     } else if (m_rest_since) {
-        if (answer.step.stage == FrameStage::full) {
+        if (drawn == FrameStage::full) {
             m_motion.rest_to_full_seconds = seconds_between(*m_rest_since, now);
         }
-        if (m_stage == FrameStage::exact) {
+        if (m_views[0].stage == FrameStage::exact) {
             m_motion.rest_to_exact_seconds = seconds_between(*m_rest_since, now);
             m_rest_since.reset();
         }
@@ -395,77 +420,119 @@ void Workbench::take(const ConversionResult& result) {
     open(result.output);
 }
 
-void Workbench::follow(bool is_moving) {
-    const Clock::time_point now = Clock::now();
-    if (m_model.revision() != m_scheduled_revision) {
-        m_scheduled_revision = m_model.revision();
+void Workbench::follow(std::size_t view, bool is_moving, Clock::time_point now) {
+    ShownView& shown = m_views[view];
+    if (revision_of(view) != shown.scheduled_revision) {
+        shown.scheduled_revision = revision_of(view);
         // One change after the other is a movement, too: the window's edge is dragged.
-        const bool goes_on = now - std::exchange(m_last_change, now) < FrameSchedule::rest;
+        const bool goes_on = now - std::exchange(shown.last_change, now) < FrameSchedule::rest;
         if (is_moving || goes_on) {
-            m_schedule.touch(now);
+            shown.schedule.touch(now);
         } else {
-            m_schedule.change();
+            shown.schedule.change();
         }
     }
     if (m_was_moving && !is_moving) {
-        m_schedule.release();
+        shown.schedule.release();
+    }
+}
+
+void Workbench::follow(bool is_moving) {
+    const Clock::time_point now = Clock::now();
+    if (m_second.is_on()) {
+        m_second.follow(m_model);
+    }
+    for (std::size_t view = 0; view < n_views(); ++view) {
+        follow(view, is_moving, now);
+    }
+    if (m_was_moving && !is_moving) {
         m_rest_since = now;
         m_last_moving_picture.reset();
     } else if (is_moving) {
         m_rest_since.reset();
     }
-    if (now - m_last_change > FrameSchedule::rest) {
+    if (now - m_views[0].last_change > FrameSchedule::rest) {
         // The hand holds still: what comes next is no measure of how many pictures can be drawn.
         m_last_moving_picture.reset();
     }
     m_was_moving = is_moving;
 }
 
-bool Workbench::collect(double showing_milliseconds) {
+std::optional<std::size_t> Workbench::collect(double showing_milliseconds) {
     std::optional<DrawAnswer> answer = m_worker.collect();
-    const bool has_news = answer.has_value();
+    const std::optional<std::size_t> view = answer ? std::optional(answer->of.view) : std::nullopt;
     if (answer) {
         take(std::move(*answer), showing_milliseconds);
     }
     if (const std::optional<ConversionResult> result = m_conversion.collect()) {
         take(*result);
     }
-    return has_news;
+    return view;
+}
+
+std::optional<DrawnStep> Workbench::next_step(Clock::time_point now) const {
+    std::optional<DrawnStep> next;
+    for (std::size_t i = 1; i <= n_views(); ++i) {
+        const std::size_t view = (m_last_view + i) % n_views();
+        if (m_views[view].failed_revision == revision_of(view)) {
+            continue;
+        }
+        const std::optional<FrameSchedule::Step> step = m_views[view].schedule.next(now);
+        // What moves goes before what is refined.
+        if (step && (!next || step->stage < next->step.stage)) {
+            next = {view, *step};
+        }
+    }
+    return next;
+}
+
+bool Workbench::is_outdated(const DrawnStep& drawing, Clock::time_point now) const {
+    if (drawing.view >= n_views() || m_views[drawing.view].schedule.is_outdated(drawing.step, now)) {
+        return true;
+    }
+    const std::optional<DrawnStep> next = next_step(now);
+    return next && next->view != drawing.view && next->step.stage < drawing.step.stage;
 }
 
 void Workbench::go_on(bool is_moving) {
     follow(is_moving);
-    const std::uint64_t revision = m_model.revision();
-    if (!m_model.volume() || m_failed_revision == revision) {
+    if (!m_model.volume()) {
         return;
     }
     const Clock::time_point now = Clock::now();
-    const std::optional<FrameSchedule::Step> drawing = m_worker.drawing();
-    const bool is_outdated = drawing && m_schedule.is_outdated(*drawing, now);
-    if (is_outdated) {
+    const std::optional<DrawnStep> drawing = m_worker.drawing();
+    const bool is_old = drawing && is_outdated(*drawing, now);
+    if (is_old) {
         m_worker.cancel_drawing();
     }
-    if (!drawing || is_outdated) {
-        if (const std::optional<FrameSchedule::Step> step = m_schedule.next(now)) {
-            m_worker.draw({m_model.scene(), *step, revision});
+    if (!drawing || is_old) {
+        if (const std::optional<DrawnStep> next = next_step(now)) {
+            m_last_view = next->view;
+            m_worker.draw({scene_of(next->view), *next, revision_of(next->view)});
         }
     }
 }
 
 bool Workbench::is_settled() const {
-    const std::uint64_t revision = m_model.revision();
-    const bool is_drawn = m_stage == FrameStage::exact && m_shown_revision == revision;
-    return m_worker.is_idle() && !m_conversion.is_running() && (!m_model.volume() || is_drawn || m_failed_revision == revision);
+    if (!m_worker.is_idle() || m_conversion.is_running()) {
+        return false;
+    }
+    for (std::size_t view = 0; m_model.volume() && view < n_views(); ++view) {
+        if (!m_views[view].is_done(revision_of(view))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 std::string Workbench::activity() const { return m_worker.activity(); }
 
 std::vector<Message> Workbench::picture_messages() const {
     std::vector<Message> messages;
-    if (m_stage != FrameStage::exact) {
+    if (stage() != FrameStage::exact) {
         return messages;
     }
-    for (const elvis::picture::remark& remark : m_picture.remarks) {
+    for (const elvis::picture::remark& remark : picture().remarks) {
         messages.push_back({remark.is_warning ? Message::Kind::warning : Message::Kind::info, remark.text});
     }
     return messages;

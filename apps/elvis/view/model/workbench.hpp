@@ -8,8 +8,11 @@
 #include "frame_worker.hpp"
 #include "histogram.hpp"
 #include "model.hpp"
+#include "second_view.hpp"
+#include "shown_view.hpp"
 #include <apps/elvis/view/scene/camera_motion.hpp>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <deque>
@@ -52,8 +55,8 @@ public:
     void open_files(const std::vector<std::string>& paths) { open_files(paths, false); }
     void save_scene(const std::string& path);
     void save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits);
-    /** What is seen at a place of the picture. */
-    void pick(const PicturePoint& place);
+    /** What is seen at a place of the first view's picture, or of the second one's. */
+    void pick(const PicturePoint& place, std::size_t view = 0);
     const std::optional<Picked>& picked() const { return m_picked; }
 
     /** A line along which a field is shown; none at first, and none of another volume. */
@@ -86,22 +89,27 @@ public:
     void convert(const std::string& input, const std::string& output);
     ConversionTask& conversion() { return m_conversion; }
 
-    /** To be called often: takes what has come. Returns whether there is a new picture. `showing`: what a picture takes to
-     * show. */
-    bool collect(double showing_milliseconds);
+    /** Beside the first view; both are drawn by the same thread, a picture at a time. */
+    void turn_on_second();
+    void turn_off_second();
+    SecondView& second() { return m_second; }
+    const SecondView& second() const { return m_second; }
+
+    /** To be called often: takes what has come. Returns the view of which there is a new picture. `showing`: what a picture
+     * takes to show. */
+    std::optional<std::size_t> collect(double showing_milliseconds);
     /** To be called after that, and after changes: sees to the next picture. `is_moving`: the hand is at work. */
     void go_on(bool is_moving);
     /** A picture is on its way. */
     bool is_drawing() const { return m_worker.drawing().has_value(); }
-    /** The last picture; its width is 0 if there is none. */
-    const Picture& picture() const { return m_picture; }
-    /** Of the last picture, whatever has changed since. */
-    FrameStage stage() const { return m_stage; }
-    /** So many pixels of the screen across and down are one of the last picture. */
-    std::uint32_t divisor() const { return m_divisor; }
+    /** What is on the screen of the first view, 0, or the second, 1. */
+    const ShownView& shown(std::size_t view = 0) const { return m_views[view]; }
+    const Picture& picture() const { return m_views[0].picture; }
+    FrameStage stage() const { return m_views[0].stage; }
+    std::uint32_t divisor() const { return m_views[0].divisor; }
     /** The picture, in whatever stage, is of the present scene. */
-    bool has_shown_present() const { return m_stage != FrameStage::none && m_shown_revision == m_model.revision(); }
-    /** The picture is exact and of the present scene, and nothing is being done. */
+    bool has_shown_present(std::size_t view = 0) const { return m_views[view].shows(revision_of(view)); }
+    /** Pictures are exact and of the present scene, and nothing is being done. */
     bool is_settled() const;
     /** What is being done: "drawing", "opening"; empty if nothing. */
     std::string activity() const;
@@ -129,14 +137,23 @@ private:
     std::string field_key(const std::optional<std::string>& field) const;
     void take(DrawAnswer answer, double showing_milliseconds);
     void take(const ConversionResult& result);
-    /** Tells the schedule what has changed since the last call, and whether the hand is at work. */
+    /** Tells the schedules what has changed since the last call, and whether the hand is at work. */
     void follow(bool is_moving);
+    void follow(std::size_t view, bool is_moving, Clock::time_point now);
+    /** What the hand does, in figures. */
+    void note_motion(std::size_t view, FrameStage drawn, Clock::time_point now);
+    std::size_t n_views() const { return m_second.is_on() ? 2 : 1; }
+    const Scene& scene_of(std::size_t view) const { return view == 0 ? m_model.scene() : m_second.scene(); }
+    std::uint64_t revision_of(std::size_t view) const { return view == 0 ? m_model.revision() : m_second.revision(); }
+    /** The picture to begin now, if one is wanted: of the view that was not drawn last, where both want one of the same kind.
+     */
+    std::optional<DrawnStep> next_step(Clock::time_point now) const;
+    bool is_outdated(const DrawnStep& drawing, Clock::time_point now) const;
 
     Model m_model;
-    FrameSchedule m_schedule;
-    /** The scene that the schedule knows of. */
-    std::uint64_t m_scheduled_revision = 0;
-    Clock::time_point m_last_change{};
+    SecondView m_second;
+    std::array<ShownView, 2> m_views;
+    std::size_t m_last_view = 1;
     bool m_was_moving = false;
     /** The worker's, asked only what any thread may ask. */
     const Session* m_session;
@@ -156,12 +173,6 @@ private:
     /** Answers to questions about volumes that are no longer open are dropped. */
     std::uint64_t m_volume_number = 0;
 
-    Picture m_picture;
-    FrameStage m_stage = FrameStage::none;
-    std::uint32_t m_divisor = 1;
-    std::uint64_t m_shown_revision = 0;
-    std::uint64_t m_failed_revision = 0;
-    std::string m_drawing_error;
     /** When the hand let go; nothing while it is at work, or when the exact picture has come. */
     std::optional<Clock::time_point> m_rest_since;
     std::optional<Clock::time_point> m_last_moving_picture;

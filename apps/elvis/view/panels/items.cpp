@@ -40,6 +40,13 @@ void row(Ui& ui, const ItemId& item, std::size_t number) {
         model.edit((shown ? "show " : "hide ") + item_kind_name(scene, item), std::move(scene));
         model.end_gesture();
     }
+    if (ui.bench.second().is_on()) {
+        bool shown_there = ui.bench.second().shows(number);
+        ImGui::SameLine();
+        if (check(ui, name + "/shown in second", "##second", shown_there, "Whether it is drawn in the second view")) {
+            ui.bench.second().set_shown(number, shown_there);
+        }
+    }
     ImGui::SameLine();
     if (ImGui::Selectable(item_label(ui.scene(), item).c_str(), model.selection() == item)) {
         model.select(item);

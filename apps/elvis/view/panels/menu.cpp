@@ -80,6 +80,16 @@ void view_menu(Ui& ui) {
         }
     }
     ImGui::Separator();
+    SecondView& second = ui.bench.second();
+    if (item(ui, "menu/second view", second.is_on() ? "One view" : "Two views", "Ctrl+2",
+             "A second view of the volume beside the first, with its own choice of items", has_volume)) {
+        toggle_second_view(ui);
+    }
+    if (item(ui, "menu/link", second.is_linked() ? "Unlink cameras" : "Link cameras", "Ctrl+L",
+             "Linked, both views have one camera; else each its own", second.is_on())) {
+        second.set_linked(model, !second.is_linked());
+    }
+    ImGui::Separator();
     bool is_dark = ui.settings.is_dark;
     if (ImGui::MenuItem("Dark", nullptr, &is_dark)) {
         ui.settings.is_dark = is_dark;

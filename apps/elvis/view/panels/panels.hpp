@@ -62,5 +62,7 @@ bool edit_warp(Ui& ui, Json& scene);
 const std::vector<std::pair<const char*, const char*>>& shortcut_texts();
 /** Called once a frame. */
 void handle_shortcuts(Ui& ui);
+/** A second view is there, or goes. */
+void toggle_second_view(Ui& ui);
 
 } // namespace elvis::view

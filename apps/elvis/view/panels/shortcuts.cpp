@@ -28,6 +28,10 @@ void handle_with_control(Ui& ui, const KeyPress& key) {
         }
     } else if (is('Y')) {
         model.redo();
+    } else if (is('2') && has_volume) {
+        toggle_second_view(ui);
+    } else if (is('L') && ui.bench.second().is_on()) {
+        ui.bench.second().set_linked(model, !ui.bench.second().is_linked());
     }
 }
 
@@ -66,6 +70,14 @@ void handle_alone(Ui& ui, const KeyPress& key) {
 
 } // namespace
 
+void toggle_second_view(Ui& ui) {
+    if (ui.bench.second().is_on()) {
+        ui.bench.turn_off_second();
+    } else {
+        ui.bench.turn_on_second();
+    }
+}
+
 const std::vector<std::pair<const char*, const char*>>& shortcut_texts() {
     static const std::vector<std::pair<const char*, const char*>> texts = {
         {"drag", "turn the volume"},
@@ -82,6 +94,8 @@ const std::vector<std::pair<const char*, const char*>>& shortcut_texts() {
         {"H", "hide or show the selected item"},
         {"Delete", "remove the selected item"},
         {"Space", "play time steps"},
+        {"Ctrl + 2", "a second view beside the first, or none"},
+        {"Ctrl + L", "both views have one camera, or each its own"},
         {"Ctrl + Z, Ctrl + Y", "undo, redo"},
         {"Ctrl + O", "open"},
         {"Ctrl + S, Ctrl + Shift + S", "save the scene"},

@@ -121,9 +121,16 @@ bool edit_streamlines(Ui& ui, Json& lines) {
         }
         is_changed = true;
     }
-    is_changed = edit_optional(ui, "streamlines/radius", "Radius", lines, "radius", 0.004 * diagonal, diagonal / 20,
-                               "Of the tubes; else a small part of the volume's diagonal") ||
+    is_changed = edit_optional(ui, "streamlines/ribbons", "Ribbons", lines, "ribbon_width", 0.02 * diagonal, diagonal / 20,
+                               "Ribbons of this width, which turn with the flow; else tubes") ||
                  is_changed;
+    if (lines.contains("ribbon_width")) {
+        lines.erase("radius");
+    } else {
+        is_changed = edit_optional(ui, "streamlines/radius", "Radius", lines, "radius", 0.004 * diagonal, diagonal / 20,
+                                   "Of the tubes; else a small part of the volume's diagonal") ||
+                     is_changed;
+    }
     return edit_optional(ui, "streamlines/length", "Length", lines, "length", diagonal, diagonal,
                          "Of each line, in each direction; else ten times the volume's diagonal") ||
            is_changed;

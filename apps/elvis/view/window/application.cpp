@@ -77,7 +77,7 @@ public:
 private:
     /** From one drawing of the panels to the next, if no picture comes before. */
     double least_seconds() const {
-        if (m_frames_wanted == 0 && !m_view.is_moving() && !m_ui.is_playing) {
+        if (m_frames_wanted == 0 && !is_hand_moving() && !m_ui.is_playing) {
             // Nothing happens, but for what changes by itself.
             return m_bench.is_settled() ? 0.5 : 0.2;
         }
@@ -87,7 +87,8 @@ private:
         return m_bench.is_drawing() ? std::clamp(m_panel_seconds / share, frame_seconds, longest) : frame_seconds;
     }
 
-    bool is_moving() { return m_view.is_moving() || m_ui.is_playing || m_ui.is_dragging || m_bench.model().is_in_gesture(); }
+    bool is_hand_moving() const { return m_view.is_moving() || m_second_view.is_moving(); }
+    bool is_moving() { return is_hand_moving() || m_ui.is_playing || m_ui.is_dragging || m_bench.model().is_in_gesture(); }
 
     /** For this start only. */
     static Settings with_options(Settings settings, const Options& options) {
@@ -104,23 +105,25 @@ private:
         for (const std::string& path : m_window.dropped()) {
             m_bench.open(path);
         }
-        const bool has_news = m_bench.collect(1000 * m_panel_seconds);
-        if (!has_news) {
+        const std::optional<std::size_t> news = m_bench.collect(1000 * m_panel_seconds);
+        if (!news) {
             m_bench.go_on(is_moving());
         }
-        const Picture& picture = m_bench.picture();
-        if (has_news && picture.width > 0) {
-            m_window.presenter().set_picture(picture.width, picture.height, picture.rgba);
-            m_has_picture = true;
-        } else if (m_has_picture && picture.width == 0) {
-            m_window.presenter().clear_picture();
-            m_has_picture = false;
+        for (std::size_t view = 0; view < m_has_picture.size(); ++view) {
+            const Picture& picture = m_bench.shown(view).picture;
+            if (news == view && picture.width > 0) {
+                m_window.presenter().set_picture(view, picture.width, picture.height, picture.rgba);
+                m_has_picture[view] = true;
+            } else if (m_has_picture[view] && picture.width == 0) {
+                m_window.presenter().clear_picture(view);
+                m_has_picture[view] = false;
+            }
         }
         if (m_window.wants_to_close()) {
             m_window.keep_open();
             m_ui.wants_to_quit = true;
         }
-        return has_news;
+        return news.has_value();
     }
 
     /** A panel at a side whose width the user can change. */
@@ -158,6 +161,20 @@ private:
         ImGui::PopStyleVar(3);
     }
 
+    void view_window(const char* name, const ImVec2& corner, const ImVec2& size, ViewArea& view) {
+        ImGui::SetNextWindowPos(corner);
+        ImGui::SetNextWindowSize(size);
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
+        if (ImGui::Begin(name, nullptr,
+                         fixed_window | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoBackground |
+                             ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav)) {
+            view.draw(m_ui, m_window.framebuffer_scale());
+        }
+        ImGui::End();
+        ImGui::PopStyleVar(2);
+    }
+
     void draw_layout() {
         const ImVec2 whole = ImGui::GetIO().DisplaySize;
         const float status_height = ImGui::GetFrameHeight() + 4 * m_ui.scale;
@@ -184,17 +201,14 @@ private:
         const float width = std::max(1.0f, whole.x - (left + right) * m_ui.scale - 2 * edge);
         const bool has_time = m_ui.model().volume() && m_ui.model().volume()->times.size() > 1;
         const float time_height = has_time ? 1.8f * ImGui::GetFrameHeight() : 0;
-        ImGui::SetNextWindowPos(ImVec2(x, top));
-        ImGui::SetNextWindowSize(ImVec2(width, std::max(1.0f, height - time_height)));
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-        if (ImGui::Begin("view window", nullptr,
-                         fixed_window | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoBackground |
-                             ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav)) {
-            m_view.draw(m_ui, m_window.framebuffer_scale());
+        const float view_height = std::max(1.0f, height - time_height);
+        const bool has_second = m_bench.second().is_on();
+        const float view_width = has_second ? std::max(1.0f, 0.5f * (width - edge)) : width;
+        view_window("view window", ImVec2(x, top), ImVec2(view_width, view_height), m_view);
+        if (has_second) {
+            view_window("second view window", ImVec2(x + view_width + edge, top), ImVec2(view_width, view_height),
+                        m_second_view);
         }
-        ImGui::End();
-        ImGui::PopStyleVar(2);
         if (has_time) {
             ImGui::SetNextWindowPos(ImVec2(x, top + height - time_height));
             ImGui::SetNextWindowSize(ImVec2(width, time_height));
@@ -258,11 +272,19 @@ private:
         if (!ImGui::IsAnyItemActive()) {
             model.end_gesture();
         }
-        model.set_size({static_cast<std::uint32_t>(m_view.box().width), static_cast<std::uint32_t>(m_view.box().height)});
+        const auto size_of = [](const ViewArea& view) {
+            return std::array{static_cast<std::uint32_t>(view.box().width), static_cast<std::uint32_t>(view.box().height)};
+        };
+        model.set_size(size_of(m_view));
+        std::vector<PixelBox> boxes{m_view.box()};
+        if (m_bench.second().is_on() && m_second_view.box().width > 0) {
+            m_bench.second().set_size(size_of(m_second_view));
+            boxes.push_back(m_second_view.box());
+        }
         set_title();
         // The next picture is begun before this one is shown.
         m_bench.go_on(is_moving());
-        m_window.end_frame(m_view.box());
+        m_window.end_frame(boxes);
         m_panel_seconds = seconds_since(m_last_frame);
         if (m_ui.has_leave_to_quit) {
             m_is_done = true;
@@ -296,10 +318,10 @@ private:
     Window m_window;
     Workbench m_bench;
     Ui m_ui;
-    ViewArea m_view;
+    ViewArea m_view{0}, m_second_view{1};
     bool m_is_done = false;
     bool m_was_settled = false;
-    bool m_has_picture = false;
+    std::array<bool, 2> m_has_picture{};
     bool m_had_picked = false;
     int m_frames_wanted = 3;
     Clock::time_point m_last_frame{};

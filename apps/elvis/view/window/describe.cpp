@@ -33,6 +33,17 @@ nlohmann::ordered_json line_json(Workbench& bench) {
     return json;
 }
 
+nlohmann::ordered_json second_json(const Workbench& bench) {
+    const SecondView& second = bench.second();
+    if (!second.is_on()) {
+        return nullptr;
+    }
+    return {{"linked", second.is_linked()},
+            {"stage", stage_name(bench.shown(1).stage)},
+            {"width", bench.shown(1).picture.width},
+            {"scene", second.scene()}};
+}
+
 nlohmann::ordered_json numbers_json(const Workbench& bench) {
     return {{"finding", bench.is_finding_numbers()},
             {"present", bench.has_present_numbers()},
@@ -64,6 +75,7 @@ std::string description(Ui& ui) {
     }
     json["picked"] = bench.picked() ? bench.picked()->text : std::string();
     json["line"] = line_json(bench);
+    json["second"] = second_json(bench);
     json["numbers"] = numbers_json(bench);
     json["messages"] = nlohmann::ordered_json::array();
     for (const Message& message : bench.messages()) {

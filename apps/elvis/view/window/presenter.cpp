@@ -42,7 +42,8 @@ struct Presenter::Impl {
     VkSemaphore acquired = VK_NULL_HANDLE;
     bool has_backend = false;
     std::unique_ptr<Swapchain> swapchain;
-    std::unique_ptr<PictureImage> picture;
+    /** By view. */
+    std::array<std::unique_ptr<PictureImage>, 2> pictures;
 
     Impl(GLFWwindow* shown_in, const std::string& wanted, bool validation)
         : window(shown_in), instance(validation, window_extensions()) {
@@ -155,8 +156,8 @@ struct Presenter::Impl {
         check_vulkan(vkBeginCommandBuffer(commands, &begin), place, "recording");
     }
 
-    /** Background and picture, into an image that is then ready for the render pass. */
-    void record_picture(VkImage image, const PixelBox& box, const std::array<float, 4>& background) {
+    /** Background and pictures, into an image that is then ready for the render pass. */
+    void record_pictures(VkImage image, std::span<const PixelBox> boxes, const std::array<float, 4>& background) {
         VkImageMemoryBarrier barrier{};
         barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
         barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
@@ -172,21 +173,23 @@ struct Presenter::Impl {
         VkClearColorValue color{};
         std::copy(background.begin(), background.end(), color.float32);
         vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &color, 1, &barrier.subresourceRange);
-        if (!picture) {
-            return;
-        }
         barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
         barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0,
                              nullptr, 1, &barrier);
-        picture->record_copy(commands, image, swapchain->size(), {box.x, box.y}, {box.width, box.height});
+        for (std::size_t view = 0; view < boxes.size(); ++view) {
+            const PixelBox& box = boxes[view];
+            if (pictures[view]) {
+                pictures[view]->record_copy(commands, image, swapchain->size(), {box.x, box.y}, {box.width, box.height});
+            }
+        }
     }
 
-    /** Background, picture and panels. */
-    void record(const Swapchain::Image& image, ImDrawData* panels, const PixelBox& box,
+    /** Background, pictures and panels. */
+    void record(const Swapchain::Image& image, ImDrawData* panels, std::span<const PixelBox> boxes,
                 const std::array<float, 4>& background) {
         begin_commands();
-        record_picture(image.image, box, background);
+        record_pictures(image.image, boxes, background);
         VkRenderPassBeginInfo pass{};
         pass.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
         pass.renderPass = render_pass;
@@ -209,7 +212,7 @@ struct Presenter::Impl {
         return vkQueuePresentKHR(target.queue, &info);
     }
 
-    void present(ImDrawData* panels, const PixelBox& box, const std::array<float, 4>& background) {
+    void present(ImDrawData* panels, std::span<const PixelBox> boxes, const std::array<float, 4>& background) {
         int width = 0, height = 0;
         glfwGetFramebufferSize(window, &width, &height);
         if (width == 0 || height == 0) {
@@ -230,7 +233,7 @@ struct Presenter::Impl {
             check_vulkan(result, place, "getting an image");
         }
         const Swapchain::Image& image = swapchain->images()[index];
-        record(image, panels, box, background);
+        record(image, panels, boxes, background);
         submit(&acquired, &image.drawn);
         result = show(index);
         const bool is_size_old = swapchain->size().width != static_cast<std::uint32_t>(width) ||
@@ -248,7 +251,7 @@ struct Presenter::Impl {
             if (has_backend) {
                 ImGui_ImplVulkan_Shutdown();
             }
-            picture.reset();
+            pictures = {};
             swapchain.reset();
             vkDestroyDescriptorPool(target.device, descriptors, nullptr);
             vkDestroySemaphore(target.device, acquired, nullptr);
@@ -269,21 +272,21 @@ Presenter::~Presenter() = default;
 
 void Presenter::begin_frame() { ImGui_ImplVulkan_NewFrame(); }
 
-void Presenter::set_picture(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba) {
+void Presenter::set_picture(std::size_t view, std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba) {
     Impl& impl = *m_impl;
-    if (!impl.picture || impl.picture->width() != width || impl.picture->height() != height) {
-        impl.picture.reset();
-        impl.picture =
-            std::make_unique<PictureImage>(impl.target.physical, impl.target.device, impl.format.format, width, height);
+    std::unique_ptr<PictureImage>& picture = impl.pictures[view];
+    if (!picture || picture->width() != width || picture->height() != height) {
+        picture.reset();
+        picture = std::make_unique<PictureImage>(impl.target.physical, impl.target.device, impl.format.format, width, height);
     }
-    impl.picture->write(rgba);
-    impl.submit_and_wait([&](VkCommandBuffer commands) { impl.picture->record_upload(commands); });
+    picture->write(rgba);
+    impl.submit_and_wait([&](VkCommandBuffer commands) { picture->record_upload(commands); });
 }
 
-void Presenter::clear_picture() { m_impl->picture.reset(); }
+void Presenter::clear_picture(std::size_t view) { m_impl->pictures[view].reset(); }
 
-void Presenter::present(ImDrawData* panels, const PixelBox& box, const std::array<float, 4>& background) {
-    m_impl->present(panels, box, background);
+void Presenter::present(ImDrawData* panels, std::span<const PixelBox> places, const std::array<float, 4>& background) {
+    m_impl->present(panels, places, background);
 }
 
 const std::string& Presenter::device_name() const { return m_impl->target.name; }

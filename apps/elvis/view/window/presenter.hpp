@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -35,11 +36,11 @@ public:
 
     /** Before ImGui::NewFrame. */
     void begin_frame();
-    /** Four bytes a pixel, top row first; kept until the next one. */
-    void set_picture(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
-    void clear_picture();
-    /** The picture, stretched to `place`, and the panels above it. */
-    void present(ImDrawData* panels, const PixelBox& place, const std::array<float, 4>& background);
+    /** Of a view: four bytes a pixel, top row first; kept until the next one. */
+    void set_picture(std::size_t view, std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
+    void clear_picture(std::size_t view);
+    /** The pictures, stretched to the places of their views, and the panels above them. */
+    void present(ImDrawData* panels, std::span<const PixelBox> places, const std::array<float, 4>& background);
 
     const std::string& device_name() const;
     std::vector<std::string> validation_messages() const;

@@ -24,8 +24,21 @@ bool ViewArea::is_moving() const {
            (m_last_zoom >= 0 && ImGui::GetTime() - m_last_zoom < zoom_rest_seconds);
 }
 
+Camera ViewArea::camera(Ui& ui) const { return m_view == 0 ? ui.model().camera() : ui.bench.second().camera(ui.model()); }
+
+void ViewArea::set_camera(Ui& ui, const Camera& camera) const {
+    if (m_view == 0) {
+        ui.model().set_camera(camera);
+    } else {
+        ui.bench.second().set_camera(ui.model(), camera);
+    }
+}
+
 std::vector<Handle> ViewArea::handles(Ui& ui, const Scene& scene) const {
     std::vector<Handle> all;
+    if (m_view != 0) {
+        return all;
+    }
     if (const std::optional<ItemId> item = ui.model().selection()) {
         all = handles_of(scene, *item, *ui.model().volume());
     }
@@ -50,11 +63,11 @@ void ViewArea::begin_drag(Ui& ui, const PicturePoint& place) {
     if (m_drag != Drag::orbit) {
         return;
     }
-    const Camera camera = ui.model().camera();
+    const Camera seen_from = camera(ui);
     m_handles_before = handles(ui, ui.scene());
     double nearest = 1.6 * handle_radius * ui.scale * m_pixels;
     for (std::size_t i = 0; i < m_handles_before.size(); ++i) {
-        if (const auto at = project(camera, m_size, m_handles_before[i].position)) {
+        if (const auto at = project(seen_from, m_size, m_handles_before[i].position)) {
             const double distance = std::hypot((*at)[0] - place[0], (*at)[1] - place[1]);
             if (distance < nearest) {
                 nearest = distance;
@@ -81,21 +94,20 @@ void ViewArea::drag_handle(Ui& ui, const PicturePoint& place) {
 }
 
 void ViewArea::go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by) {
-    Model& model = ui.model();
-    const Camera camera = model.camera();
+    const Camera before = camera(ui);
     switch (m_drag) {
     case Drag::orbit:
-        model.set_camera(orbited(camera, m_size, by));
+        set_camera(ui, orbited(before, m_size, by));
         break;
     case Drag::pan:
-        model.set_camera(panned(camera, m_size, by));
+        set_camera(ui, panned(before, m_size, by));
         break;
     case Drag::zoom:
-        model.set_camera(
-            zoomed(camera, m_size, {0.5 * m_size.width, 0.5 * m_size.height}, std::exp(-3 * (by[0] - by[1]) / m_size.height)));
+        set_camera(ui, zoomed(before, m_size, {0.5 * m_size.width, 0.5 * m_size.height},
+                              std::exp(-3 * (by[0] - by[1]) / m_size.height)));
         break;
     case Drag::roll:
-        model.set_camera(rolled(camera, 180 * by[0] / m_size.width));
+        set_camera(ui, rolled(before, 180 * by[0] / m_size.width));
         break;
     case Drag::handle:
         drag_handle(ui, place);
@@ -114,7 +126,7 @@ void ViewArea::draw_picked_point(Ui& ui) const {
     if (!picked || !picked->is_hit) {
         return;
     }
-    if (const auto place = project(ui.model().camera(), m_size, picked->position)) {
+    if (const auto place = project(camera(ui), m_size, picked->position)) {
         ImDrawList* list = ImGui::GetWindowDrawList();
         const ImVec2 at = on_screen(*place);
         const float arm = 8 * ui.scale;
@@ -129,15 +141,15 @@ void ViewArea::draw_line(Ui& ui) const {
     if (!ui.bench.line) {
         return;
     }
-    const Camera camera = ui.model().camera();
-    const auto from = project(camera, m_size, ui.bench.line->from), to = project(camera, m_size, ui.bench.line->to);
+    const Camera seen_from = camera(ui);
+    const auto from = project(seen_from, m_size, ui.bench.line->from), to = project(seen_from, m_size, ui.bench.line->to);
     ImDrawList* list = ImGui::GetWindowDrawList();
     if (from && to) {
         list->AddLine(on_screen(*from), on_screen(*to), rgba(0, 0, 0), 4 * ui.scale);
         list->AddLine(on_screen(*from), on_screen(*to), rgba(90, 200, 255), 2 * ui.scale);
     }
     const auto dot = [&](const Vector3& position, float radius, ImU32 color) {
-        if (const auto place = project(camera, m_size, position)) {
+        if (const auto place = project(seen_from, m_size, position)) {
             list->AddCircleFilled(on_screen(*place), radius + ui.scale, rgba(0, 0, 0));
             list->AddCircleFilled(on_screen(*place), radius, color);
         }
@@ -156,26 +168,26 @@ void ViewArea::draw_line(Ui& ui) const {
 }
 
 void ViewArea::draw_handles(Ui& ui) {
-    const Camera camera = ui.model().camera();
+    const Camera seen_from = camera(ui);
     ImDrawList* list = ImGui::GetWindowDrawList();
     const std::vector<Handle> all = handles(ui, ui.scene());
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     const float radius = handle_radius * ui.scale;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const auto place = project(camera, m_size, all[i].position);
+        const auto place = project(seen_from, m_size, all[i].position);
         if (!place) {
             continue;
         }
         const ImVec2 at = on_screen(*place);
         if (all[i].tied_to) {
-            if (const auto end = project(camera, m_size, *all[i].tied_to)) {
+            if (const auto end = project(seen_from, m_size, *all[i].tied_to)) {
                 list->AddLine(on_screen(*end), at, rgba(0, 0, 0), 4 * ui.scale);
                 list->AddLine(on_screen(*end), at, rgba(255, 200, 40), 2 * ui.scale);
             }
         }
     }
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const auto place = project(camera, m_size, all[i].position);
+        const auto place = project(seen_from, m_size, all[i].position);
         if (!place) {
             continue;
         }
@@ -200,15 +212,16 @@ struct StageMark {
     const char* help;
 };
 
-StageMark mark_of(const Workbench& bench) {
+StageMark mark_of(const Workbench& bench, std::size_t view) {
+    const ShownView& shown = bench.shown(view);
     const ImU32 amber = rgba(230, 160, 30), blue = rgba(80, 150, 240), green = rgba(60, 180, 75);
-    if (bench.stage() == FrameStage::none || (bench.stage() != FrameStage::moving && !bench.has_shown_present())) {
+    if (shown.stage == FrameStage::none || (shown.stage != FrameStage::moving && !bench.has_shown_present(view))) {
         return {"drawing", amber, "The picture is out of date; another one is being drawn"};
     }
-    switch (bench.stage()) {
+    switch (shown.stage) {
     case FrameStage::moving: {
         std::string words = "moving, 1 : ";
-        words += std::to_string(bench.divisor());
+        words += std::to_string(shown.divisor);
         return {words, amber,
                 "Stage 1 of 3: fewer pixels, perhaps without lines, to keep up with the hand. All comes when it rests"};
     }
@@ -223,7 +236,7 @@ StageMark mark_of(const Workbench& bench) {
 } // namespace
 
 void ViewArea::draw_stage(Ui& ui) const {
-    const StageMark mark = mark_of(ui.bench);
+    const StageMark mark = mark_of(ui.bench, m_view);
     const float pad = 6 * ui.scale;
     const float height = ImGui::GetTextLineHeight();
     const ImVec2 corner(static_cast<float>(m_box.x) / m_pixels + pad, static_cast<float>(m_box.y) / m_pixels + pad);
@@ -233,7 +246,7 @@ void ViewArea::draw_stage(Ui& ui) const {
     list->AddRectFilled(corner, end, rgba(30, 30, 30, 200), pad);
     list->AddCircleFilled(ImVec2(corner.x + pad + 0.5f * height, corner.y + pad + 0.5f * height), 0.35f * height, mark.lamp);
     list->AddText(ImVec2(corner.x + 2 * pad + height, corner.y + pad), rgba(255, 255, 255), mark.words.c_str());
-    ui.places["stage"] = {corner.x, corner.y, end.x, end.y};
+    ui.places[m_view == 0 ? "stage" : "second stage"] = {corner.x, corner.y, end.x, end.y};
     if (m_drag == Drag::none && ImGui::IsItemHovered() && ImGui::IsMouseHoveringRect(corner, end)) {
         ImGui::SetTooltip("%s", mark.help);
     }
@@ -250,9 +263,8 @@ void ViewArea::draw(Ui& ui, float framebuffer_scale) {
     ImGui::InvisibleButton("view", ImVec2(std::max(1.0f, room.x), std::max(1.0f, room.y)),
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
-    explain(ui, "view", "");
-    Model& model = ui.model();
-    if (!model.volume()) {
+    explain(ui, m_view == 0 ? "view" : "second view", "");
+    if (!ui.model().volume()) {
         return;
     }
     const ImGuiIO& io = ImGui::GetIO();
@@ -268,12 +280,12 @@ void ViewArea::draw(Ui& ui, float framebuffer_scale) {
     }
     if (ImGui::IsItemDeactivated()) {
         if ((m_drag == Drag::orbit || m_drag == Drag::handle) && m_dragged < click_distance) {
-            ui.bench.pick(place);
+            ui.bench.pick(place, m_view);
         }
         m_drag = Drag::none;
     }
     if (ImGui::IsItemHovered() && io.MouseWheel != 0) {
-        model.set_camera(zoomed(model.camera(), m_size, place, std::pow(0.88, double{io.MouseWheel})));
+        set_camera(ui, zoomed(camera(ui), m_size, place, std::pow(0.88, double{io.MouseWheel})));
         m_last_zoom = ImGui::GetTime();
     }
     draw_picked_point(ui);

@@ -8,12 +8,16 @@
 #include "ui.hpp"
 #include <apps/elvis/view/scene/handles.hpp>
 
+#include <cstddef>
 #include <optional>
 
 namespace elvis::view {
 
 class ViewArea {
 public:
+    /** Of the first view, 0, or the second one, which has no handles. */
+    explicit ViewArea(std::size_t view) : m_view(view) {}
+
     /** Takes what is left of the present ImGui window. Sizes in pixels of the framebuffer. */
     void draw(Ui& ui, float framebuffer_scale);
     /** Where the picture goes. */
@@ -23,6 +27,8 @@ public:
 
 private:
     enum class Drag { none, orbit, pan, zoom, roll, handle };
+    Camera camera(Ui& ui) const;
+    void set_camera(Ui& ui, const Camera& camera) const;
     void begin_drag(Ui& ui, const PicturePoint& place);
     void go_on(Ui& ui, const PicturePoint& place, const PicturePoint& by);
     /** Of the selected item, and then those of the line. */
@@ -36,6 +42,7 @@ private:
     /** Which of the three stages is on the screen. */
     void draw_stage(Ui& ui) const;
 
+    std::size_t m_view;
     PixelBox m_box;
     PictureSize m_size;
     float m_pixels = 1; ///< of the framebuffer, a unit of ImGui

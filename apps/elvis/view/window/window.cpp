@@ -255,9 +255,9 @@ void Window::replay_keys() {
     }
 }
 
-void Window::end_frame(const PixelBox& picture) {
+void Window::end_frame(std::span<const PixelBox> views) {
     ImGui::Render();
-    m_presenter->present(ImGui::GetDrawData(), picture, {0.25f, 0.25f, 0.27f, 1.0f});
+    m_presenter->present(ImGui::GetDrawData(), views, {0.25f, 0.25f, 0.27f, 1.0f});
 }
 
 } // namespace elvis::view

@@ -11,6 +11,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,8 @@ public:
     std::vector<KeyPress> pressed_keys();
 
     void begin_frame();
-    void end_frame(const PixelBox& picture);
+    /** `views`: where their pictures go. */
+    void end_frame(std::span<const PixelBox> views);
 
 private:
     static void on_event(GLFWwindow* window);

@@ -243,10 +243,13 @@ typedef struct elvis_join {
 } elvis_join;
 
 /**
- * Data with the fields of others beside their own, as new data that do not change with these: expressions such as p - b.p are
- * exact, and so are their integrals, extrema and isosurfaces. The elements must be the same, in the same order: each mapping
- * may differ by 1e-10 of the largest coordinate. All geometries are read for that. Only of native volumes, of what is converted
- * to them, and of arrays. `joins`: structs that follow each other.
+ * Data with the fields of others beside their own, as new data that do not change with these. Where the elements are the same,
+ * in the same order (each mapping may differ by 1e-10 of the largest coordinate), expressions such as p - b.p are exact, and so
+ * are their integrals, extrema and isosurfaces: of native volumes, of what is converted to them, and of arrays. All geometries
+ * are read for that. Fields of others are found by place, point by point in double precision on the processor, and are NaN
+ * where their volume is not: they can be drawn on surfaces, probed, traced and integrated; contours, isosurfaces and what else
+ * needs them between points fails with ELVIS_ERROR_INPUT when it is asked for. Both volumes must be evaluated on the processor.
+ * `joins`: structs that follow each other.
  */
 ELVIS_EXPORT elvis_result elvis_data_join(elvis_data* data, const elvis_join* joins, uint32_t n_joins, const elvis_task* task,
                                           elvis_data** joined);

@@ -16,12 +16,6 @@ namespace {
 /** Elements that are compared at once. */
 constexpr std::uint64_t block = 4096;
 
-bool is_word(const std::string& name) {
-    const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
-    return !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
-           std::ranges::all_of(name, [&](unsigned char c) { return is_letter(c) || std::isdigit(c) != 0; });
-}
-
 std::string count_of(std::uint64_t n, const char* what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); }
 
 /** The geometry of some elements of a class, in a space that holds it. */
@@ -112,7 +106,7 @@ JoinedVolume::JoinedVolume(std::shared_ptr<const VolumeSource> source, std::vect
     for (const Joined& joined : m_others) {
         const auto has_name = [&](const Joined& other) { return other.name == joined.name; };
         named(joined.name, [&] {
-            if (!is_word(joined.name))
+            if (!is_name(joined.name))
                 throw std::invalid_argument("is no name: letters, digits and _, no digit first");
             if (std::ranges::count_if(m_others, has_name) > 1)
                 throw std::invalid_argument("is joined twice");
@@ -128,6 +122,21 @@ JoinedVolume::JoinedVolume(std::shared_ptr<const VolumeSource> source, std::vect
 }
 
 JoinedVolume::~JoinedVolume() = default;
+
+bool JoinedVolume::is_name(const std::string& name) {
+    const auto is_letter = [](unsigned char c) { return std::isalpha(c) != 0 || c == '_'; };
+    return !name.empty() && is_letter(static_cast<unsigned char>(name.front())) &&
+           std::ranges::all_of(name, [&](unsigned char c) { return is_letter(c) || std::isdigit(c) != 0; });
+}
+
+bool JoinedVolume::has_same_elements(const VolumeSource& source, const VolumeSource& other) {
+    try {
+        check_elements(source, other);
+        return true;
+    } catch (const std::invalid_argument&) {
+        return false;
+    }
+}
 
 void JoinedVolume::add_fields(const Joined& joined) {
     const Description& theirs = joined.source->description();

@@ -41,7 +41,11 @@ public:
      * other elements, which it names, and for other numbers of time steps; FileError where a file cannot be read.
      */
     JoinedVolume(std::shared_ptr<const VolumeSource> source, std::vector<Joined> others);
+    /** Whether another volume's elements are the same. Reads both geometries; throws FileError where a file cannot be read. */
+    static bool has_same_elements(const VolumeSource& source, const VolumeSource& other);
     ~JoinedVolume() override;
+    /** Whether fields can have this name before theirs: letters, digits and _, no digit first. */
+    static bool is_name(const std::string& name);
 
     const Description& description() const override { return m_description; }
     void read_geometry(std::size_t element_class, std::uint64_t first, std::uint64_t count,
