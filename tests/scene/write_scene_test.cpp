@@ -114,7 +114,7 @@ const std::vector<std::string>& documents() {
               {"type": "streamlines", "flow": "curl(u)", "seeds": [[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]], "direction": "backward", "length": 3.0,
                "tolerance": 1e-6, "radius": 0.01, "color": [0.9, 0.5, 0.2]},
               {"type": "arrows", "vectors": "grad(p)", "on": "cut", "spacing": 0.25, "scale": 2.0, "field": "p", "opacity": 0.5},
-              {"type": "streamlines", "flow": "u", "seed_grid": 7, "direction": "both", "tolerance": 1e-9, "field": "p", "ribbon_width": 0.05},
+              {"type": "streamlines", "flow": "u", "seed_grid": 7, "direction": "both", "tolerance": 1e-9, "ribbon_width": 0.05, "field": "p"},
               {"type": "pathlines", "flow": "u", "seed_grid": 3, "direction": "backward", "tolerance": 1e-9, "start_time": 2.5,
                "end_time": 0.5, "interpolation": "linear"},
               {"type": "pathlines", "flow": "u", "seeds": [[0.0, 1.0, 2.0]], "direction": "forward", "tolerance": 1e-9,
