@@ -52,6 +52,7 @@ SurfaceScene::SurfaceScene(const std::string& path, Precision precision)
     : m_precision(precision), m_volume(open_volume(path)), m_data(device(), m_volume, precision, nullptr) {
     m_data.select(0, 0, {0.0});
     m_pass.emplace(device(), m_volume, m_data);
+    m_pass->provide_elements();
 }
 
 SurfacePicture SurfaceScene::draw(const SurfaceSolver& solver, const CutShape& shape, const Camera& camera, std::uint32_t width,
