@@ -6,7 +6,7 @@
 // pixel shows is off their hull by C R^2 at most, with the curvature C that is proven at xi (element/local_curvature.glsl). A cube that the
 // hull does not reach, enlarged by that, is left out. The others are cut in eight until 4 C R <= 1: in such a cube the mapping is one to one.
 //
-// What is left is told as one cube around all of it.
+// What is left is told as one box around all of it: that of the shape where not all has been looked at.
 
 #ifndef CORE_SHOWN_PART
 #define CORE_SHOWN_PART
@@ -15,13 +15,13 @@
 #include "element/octree_box.glsl"
 #include "lines/subpixel.glsl"
 
-// Evaluations in an element, and levels of cubes, after which nothing is known of it.
+// Evaluations in an element, and levels of cubes.
 #define CORE_PART_EVALUATIONS 400u
 #define CORE_PART_LEVELS 7u
 
 struct core_shown_part {
     elvis_vec3 lower, upper;
-    // False: it may be any part of the element.
+    // False: no curvature is proven of the element.
     bool is_known;
     uint n_evaluations;
 };
@@ -64,6 +64,7 @@ bool core_hull_reaches(const core_predicted_hull hull, elvis_vec3 xi, elvis_vec3
 core_shown_part core_find_part(uint element, core_cut_square corners, elvis_vec3 normal) {
     core_octree_box box = core_whole_box();
     uint n_evaluations = 0u;
+    bool is_proven = true;
     elvis_real lower_x = CORE_UNKNOWN, lower_y = CORE_UNKNOWN, lower_z = CORE_UNKNOWN;
     elvis_real upper_x = -CORE_UNKNOWN, upper_y = -CORE_UNKNOWN, upper_z = -CORE_UNKNOWN;
     while (!box.is_last && n_evaluations < CORE_PART_EVALUATIONS) {
@@ -73,7 +74,9 @@ core_shown_part core_find_part(uint element, core_cut_square corners, elvis_vec3
         const core_frame frame = core_frame_at(image.position, image.jacobian, corners.error + image.shift_error);
         const core_predicted_hull hull = core_predict_hull(image, frame, corners, normal);
         const elvis_real curvature = core_proven_curvature_at(element, frame);
-        const elvis_real error = core_prediction_error_within(curvature, hull.step, reach) + core_max_norm(frame.xi_error);
+        // Rounding of positions, and of the inverse.
+        const elvis_real rounding = core_max_norm(frame.xi_error) + elvis_real(8) * CORE_ROUNDOFF * frame.conditioning * hull.step;
+        const elvis_real error = core_prediction_error_within(curvature, hull.step, reach) + rounding;
         const bool is_sound = frame.is_sound && core_is_finite(hull.step);
         const bool is_beside = core_excess(middle.x, middle.y, middle.z) > CORE_CONSTRAINT_NORM * half_side;
         const bool is_excluded = is_beside || (is_sound && !core_hull_reaches(hull, xi, middle, half_side, error));
@@ -93,12 +96,14 @@ core_shown_part core_find_part(uint element, core_cut_square corners, elvis_vec3
         } else {
             core_cut_box(box);
         }
-        // Where nothing is proven, no part is left out.
-        if (box.is_last || curvature >= CORE_UNKNOWN_CURVATURE) {
+        is_proven = curvature < CORE_UNKNOWN_CURVATURE;
+        if (box.is_last || !is_proven) {
             break;
         }
     }
-    return core_shown_part(elvis_vec3(lower_x, lower_y, lower_z), elvis_vec3(upper_x, upper_y, upper_z), box.is_last, n_evaluations);
+    const elvis_vec3 lower = box.is_last ? elvis_vec3(lower_x, lower_y, lower_z) : elvis_vec3(-1);
+    const elvis_vec3 upper = box.is_last ? elvis_vec3(upper_x, upper_y, upper_z) : elvis_vec3(1);
+    return core_shown_part(lower, upper, is_proven, n_evaluations);
 }
 
 #endif

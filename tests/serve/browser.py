@@ -31,12 +31,13 @@ class Browser:
         if phone:
             options["mobileEmulation"] = {"deviceMetrics": {"width": phone[0], "height": phone[1], "pixelRatio": 2, "touch": True}}
         capabilities = {"browserName": "chrome", "goog:chromeOptions": options, "goog:loggingPrefs": {"browser": "ALL"}}
-        end = time.monotonic() + 30
+        # Until the driver listens, and a browser that does not start in the driver's time is started again.
+        end = time.monotonic() + 90
         while True:
             try:
                 made = self.call("POST", "", {"capabilities": {"alwaysMatch": capabilities}}, session="/session")
                 break
-            except (urllib.error.URLError, ConnectionError):
+            except (OSError, AssertionError):
                 if time.monotonic() > end:
                     self.driver.kill()
                     raise
@@ -66,7 +67,7 @@ class Browser:
     def run(self, script, *arguments):
         return self.call("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
-    def wait(self, condition, seconds=60):
+    def wait(self, condition, seconds=120):
         """Until the expression is true; returns it."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:

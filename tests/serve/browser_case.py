@@ -53,8 +53,8 @@ class BrowserCase(unittest.TestCase):
 
     def downloaded(self, name):
         path = os.path.join(self.folder, name)
-        end = time.monotonic() + 30
-        while not os.path.exists(path) and time.monotonic() < end:
+        end = time.monotonic() + 60
+        while not (os.path.exists(path) and os.path.getsize(path)) and time.monotonic() < end:
             time.sleep(0.1)
         with open(path, "rb") as file:
             content = file.read()

@@ -269,6 +269,14 @@ TEST_CASE("elements that fold, or are flat, have no curvature") {
         const Polynomial folded(std::vector<Term>{{{2, 0, 0}, {bend, 0, 0}}});
         CHECK(proven(folded, ELVIS_SHAPE_HEXAHEDRON, {2, 1, 1}) == unknown_curvature);
     }
+    // Seen while a bound is looked for, and bent so much that none is looked for.
+    for (const double bend : {0.7, 9.0}) {
+        const Polynomial folded(std::vector<Term>{{{2, 0, 0}, {bend, 0, 0}}});
+        CHECK(bends_of(folded, ELVIS_SHAPE_HEXAHEDRON, {2, 1, 1}) == ElementBends{});
+    }
+    const Polynomial bent(std::vector<Term>{{{2, 0, 0}, {0.45, 0, 0}}});
+    CHECK(proven(bent, ELVIS_SHAPE_HEXAHEDRON, {2, 1, 1}) == unknown_curvature);
+    CHECK(bends_of(bent, ELVIS_SHAPE_HEXAHEDRON, {2, 1, 1}) != ElementBends{});
     const Polynomial flat(std::vector<Term>{{{0, 0, 1}, {0, 0, -1}}});
     CHECK(proven(flat, ELVIS_SHAPE_HEXAHEDRON, {1, 1, 1}) == unknown_curvature);
     const Polynomial nowhere(std::vector<Term>{{{1, 0, 0}, {std::nan(""), 0, 0}}});

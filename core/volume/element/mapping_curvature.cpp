@@ -284,9 +284,9 @@ void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures, st
             Element::raise_to_norm_of(form, {1, 0, 0, 0, 1, 0, 0, 0, 1}, form.norm);
         }
         std::ranges::sort(element.forms, std::greater{}, &Element::Form::norm);
-        // The search for a bound looks for folds itself, where it is made.
-        const bool is_folded = curvature >= most_curvature && folds(element);
-        curvatures[lane] = is_folded ? unknown_curvature : rounded_up(bound_in_parts(element, curvature));
+        const double in_parts = bound_in_parts(element, curvature);
+        const bool is_folded = std::isnan(in_parts) || (in_parts > most_curvature && folds(element));
+        curvatures[lane] = is_folded ? unknown_curvature : rounded_up(in_parts);
         bends[lane] = is_folded ? ElementBends{} : bends[lane];
     }
 }
@@ -305,6 +305,7 @@ bool CurvatureBounder::folds(const Element& element) const {
     return false;
 }
 
+/** Not a number if the element is seen to fold. */
 double CurvatureBounder::bound_in_parts(const Element& element, double shown) const {
     std::priority_queue<Part> parts;
     Part part = *part_of(m_shape, {0, 0, 0}, 1);
@@ -335,8 +336,7 @@ double CurvatureBounder::bound_in_parts(const Element& element, double shown) co
             const Matrix3 relative = product(element.inverse, jacobian);
             const double curvature = element.curvature(relative);
             if (!(determinant(relative) > 0) || !std::isfinite(curvature)) {
-                // It folds.
-                return std::numeric_limits<double>::infinity();
+                return std::numeric_limits<double>::quiet_NaN();
             }
             halves[index].bound = bound_on(curvature, halves[index].radius);
             shown = std::max(shown, curvature);
