@@ -15,6 +15,7 @@
 // What is proven of the element holds in its octants. Where it is larger than this, what is measured of each octant is smaller by so much
 // that pictures would take twice as long.
 #define CORE_MOST_PROVEN_CURVATURE elvis_real(1)
+// In elements with a curvature above CORE_MOST_MEASURED_CURVATURE the proven bound at the octant's point counts, where one is known.
 // A linearization that leaves out more than this much of the octant's half side is of no use. With less than a quarter, the far solution of a
 // prediction (element/prediction.glsl) lies 1/(2C) away or more, which is the octant's side: it lies outside of it. Octants that are small
 // already, beside places where the mapping is nearly singular, would stay without a linear model.
@@ -73,15 +74,15 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
     mapping.curvature = elvis_fetch_core_curvatures(element, 0u);
     const bool is_proven = elvis_fetch_core_curvatures(element, 1u) > elvis_real(0) && mapping.curvature <= CORE_MOST_PROVEN_CURVATURE;
     elvis_vec3 turn = elvis_real(2) * mapping.curvature * place.radius * sides;
-    // In strongly bent elements what is measured may be too little.
-    const elvis_real local = core_proven_curvature_at(element, frame);
-    if (mapping.curvature > CORE_MOST_MEASURED_CURVATURE && local < CORE_UNKNOWN_CURVATURE) {
-        mapping.curvature = local;
-        turn = place.radius * core_proven_turn(element);
-    } else if (!is_proven) {
+    if (!is_proven) {
         const elvis_real measured =
             core_measured_curvature(element, place.xi, mapping.jacobian, place.middle, place.half_side, 1u, turn);
-        mapping.curvature = (code & 7u) != 0u && mapping.curvature > CORE_SMALL_CURVATURE ? measured : mapping.curvature;
+        const elvis_real local = core_proven_curvature_at(element, frame);
+        const bool is_local = mapping.curvature > CORE_MOST_MEASURED_CURVATURE && local < CORE_UNKNOWN_CURVATURE;
+        mapping.curvature = is_local                                                                ? local
+                            : (code & 7u) != 0u && mapping.curvature > CORE_SMALL_CURVATURE ? measured
+                                                                                            : mapping.curvature;
+        turn = is_local ? place.radius * core_proven_turn(element) : turn;
     }
     mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
     mapping.size = place.half_side + mapping.bending;
