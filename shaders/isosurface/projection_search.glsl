@@ -23,7 +23,8 @@ struct core_projection_search {
     elvis_real span_end, sought_from;
     uint n_segments;
     core_segment segment;
-    // The segment, as much longer as its ends may be wrong.
+    // The segment, as much longer as its ends may be wrong. While it is looked for, where the ray may be in the element within rounding;
+    // from CORE_FAR on: nowhere.
     elvis_real segment_from, segment_to;
 
     core_dyadic_interval interval;

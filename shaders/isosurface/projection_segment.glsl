@@ -4,6 +4,8 @@
 
 // Segments of a ray in one element.
 #define CORE_MOST_SEGMENTS 16u
+// Times the tolerance of ends that a ray may be in an element within rounding without a flag.
+#define CORE_LONGEST_TOUCH elvis_real(16)
 
 #if ELVIS_REAL_IS_DOUBLE
 #define CORE_BEGINNINGS_ARE_UNCERTAIN false
@@ -37,13 +39,23 @@ void core_projection_element(core_ray ray, core_traced_ray traced_ray, uint elem
     const bool is_begun =
         !is_missed && !is_excluded && core_segment_begin(traced_ray, search.element, span_from, reach_end, false, search.segment);
     search.sought_from = search.segment.begin;
+    search.segment_from = CORE_FAR;
     search.phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
+}
+
+// Notes what has been left out because rounding decides whether the ray is in the element: it runs along a face.
+void core_projection_touch(core_traced_ray traced_ray, inout core_projection_search search) {
+    const core_segment segment = search.segment;
+    const bool is_touching = segment.is_touched && segment.enter_error > traced_ray.tolerance;
+    search.segment_from = is_touching ? min(search.segment_from, segment.enter) : search.segment_from;
+    search.segment_to = is_touching ? segment.enter + segment.enter_error : search.segment_to;
 }
 
 // An iteration towards the next segment.
 void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout core_projection_search search) {
     const uint ending = core_segment_iterate(traced_ray, true, search.segment);
     search.n_evaluations += 1u;
+    core_projection_touch(traced_ray, search);
     const bool is_found = ending == CORE_SEGMENT_FOUND && search.segment.enter < search.segment.leave;
     const bool is_lost = ending != CORE_SEGMENT_OPEN && search.segment.has_failed;
     search.n_failures += is_lost ? 1u : 0u;
@@ -54,8 +66,15 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     search.undecided_t = is_uncertain ? min(search.undecided_t, search.sought_from) : search.undecided_t;
     search.phase = is_found ? CORE_PHASE_SAMPLE : ending == CORE_SEGMENT_OPEN ? CORE_PHASE_CLIP : CORE_PHASE_SEGMENT_DONE;
     // Ends are as wrong as that, and a crossing beside them is one all the same; but none is behind the eye.
-    search.segment_from = max(search.segment.enter - search.segment.enter_error - traced_ray.tolerance, ray.least_t);
-    search.segment_to = search.segment.leave + search.segment.leave_error + traced_ray.tolerance;
+    const elvis_real enter = search.segment.enter - search.segment.enter_error - traced_ray.tolerance;
+    const bool is_over = ending != CORE_SEGMENT_OPEN, is_touched = search.segment_from < CORE_FAR;
+    const bool is_joined = is_found && is_touched && enter <= search.segment_to + traced_ray.tolerance;
+    // Shorter ones are near the ends of what the neighbours have.
+    const bool is_long = is_touched && search.segment_to - search.segment_from > CORE_LONGEST_TOUCH * traced_ray.tolerance;
+    const bool is_passed = is_over && is_long && !is_joined && CORE_PLAIN == 0;
+    search.undecided_t = is_passed ? min(search.undecided_t, search.segment_from) : search.undecided_t;
+    search.segment_from = is_over ? max(is_joined ? search.segment_from : enter, ray.least_t) : search.segment_from;
+    search.segment_to = is_over ? search.segment.leave + search.segment.leave_error + traced_ray.tolerance : search.segment_to;
     search.interval.level = search.interval.index = 0u;
     search.from = search.segment_from;
     search.to = search.segment_to;
@@ -74,6 +93,7 @@ void core_projection_behind_segment(core_traced_ray traced_ray, elvis_real neare
     if (goes_on && search.n_segments < CORE_MOST_SEGMENTS) {
         is_begun = core_segment_begin(traced_ray, search.element, resume, search.span_end, false, search.segment);
         search.sought_from = search.segment.begin;
+        search.segment_from = CORE_FAR;
     }
     search.phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
 }

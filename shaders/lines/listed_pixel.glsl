@@ -32,6 +32,7 @@ layout(push_constant) uniform core_parameters {
     uint core_is_closed;
 };
 
+#define CORE_FACES_IN_SURFACE 0
 #include "lines/search_state.glsl"
 #include "picture/surroundings.glsl"
 

@@ -1,5 +1,7 @@
 // A cut plane, for lines/subpixel_search.glsl.
 
+#define CORE_FACES_IN_SURFACE 1
+
 #include "lines/search_state.glsl"
 #include "lines/surface_box.glsl"
 #include "lines/element_start.glsl"
@@ -73,7 +75,9 @@ core_shown_square core_square_on(const core_surface surface, const core_line_sea
     const bool is_in_front = !square.subpixel.is_behind && !square.subpixel.may_be_behind;
     square.subpixel.is_inside = square.subpixel.is_inside && (is_in_front || !search.asks_own);
 #endif
-    square.may_hide_contour = surface.may_hide_behind && (square.subpixel.is_behind || square.subpixel.may_be_behind);
+    const bool is_behind = square.subpixel.is_behind || square.subpixel.may_be_behind;
+    square.may_hide_contour = surface.may_hide_behind && is_behind;
+    square.wanted_sides = !surface.may_hide_behind ? 0u : (is_behind ? CORE_BEHIND : 0u) | (square.subpixel.is_before ? CORE_BEFORE : 0u);
     return square;
 }
 

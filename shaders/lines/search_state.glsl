@@ -9,6 +9,9 @@
 // In place of an item of the hierarchy: an element, or a patch.
 #define CORE_NO_ITEM 0xffffffffu
 
+#define CORE_BEFORE 1u
+#define CORE_BEHIND 2u
+
 #ifndef CORE_LINE_STACK_SIZE
 #define CORE_LINE_STACK_SIZE CORE_STACK_SIZE
 #endif
@@ -34,6 +37,10 @@ struct core_line_search {
     // Squares of the patch that are still to be looked at.
     uint n_squares;
     uint work, n_evaluations;
+#if CORE_FACES_IN_SURFACE
+    // Sides of the surface on which an element that has a face in it ends within the pixel: CORE_BEFORE, CORE_BEHIND.
+    uint ending_sides;
+#endif
 #if CORE_STRONGLY_BENT
     // Only the element that the pixel's middle shows is asked; what was asked so far lies inside of it.
     bool asks_own, is_filled;
@@ -49,6 +56,9 @@ core_line_search core_begin_search(elvis_real column, elvis_real row, uint most_
     const elvis_real zero = elvis_real(0);
     return core_line_search(lines, core_is_looking(lines), has_nodes ? 1u : 0u, CORE_NO_ITEM, 0, CORE_NO_ITEM, column, row, 0u, 0u,
                             0u, most_level, zero, zero, zero, 0u, 0u, 0u, 0u
+#if CORE_FACES_IN_SURFACE
+                            , 0u
+#endif
 #if CORE_STRONGLY_BENT
                             , false, false, zero, zero, zero, elvis_real(-1)
 #endif

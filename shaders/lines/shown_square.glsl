@@ -18,6 +18,9 @@ struct core_shown_square {
     bool is_hidden;
     // What is met in the square is seen in the pixel; but for contours, which another element may hide.
     bool is_seen, may_hide_contour;
+    // The element has a face in the surface, on that side of it: a line is sure where elements on both sides end. Rounding decides whether
+    // the surface meets one that has no neighbour there.
+    uint wanted_sides;
     // The square is the pixel, and an element that fills it hides everything else.
     bool is_whole_pixel;
     // The square is larger than the pixel.
@@ -38,6 +41,7 @@ core_shown_square core_shown_square_at(const core_element_image image, core_cut_
     square.approach = core_approach_to(square.subpixel, image);
     square.is_absent = square.is_hidden = square.may_hide_contour = false;
     square.is_whole_pixel = square.is_oversized = square.enters = false;
+    square.wanted_sides = 0u;
     square.is_seen = corners.all_hit;
     return square;
 }

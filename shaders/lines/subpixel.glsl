@@ -75,8 +75,9 @@ struct core_subpixel {
     bool is_inside, is_outside, is_crossed;
     // Bits of the corners that lie inside, and outside.
     uint inside_corners, outside_corners;
-    // The surface lies in a face of the element, which is on the far side. It may do so, as far as is known from here.
-    bool is_behind, may_be_behind;
+    // The surface lies in a face of the element, which is on the far side. It may do so, as far as is known from here. It does or may do
+    // so, and the element is on the near side.
+    bool is_behind, may_be_behind, is_before;
     // The surface touches the element along an edge at most, within rounding, and does not show it.
     bool is_grazed;
     // By how much at least the corners violate a face together, or leave the surface's own one, as predicted; negative if they do
@@ -118,7 +119,7 @@ void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, const core_fr
     // Rounding of the corners' coordinates.
     const elvis_vec3 xi_error = frame.xi_error;
     subpixel.is_inside = true;
-    subpixel.is_outside = subpixel.is_behind = subpixel.may_be_behind = false;
+    subpixel.is_outside = subpixel.is_behind = subpixel.may_be_behind = subpixel.is_before = false;
     subpixel.inside_corners = 15u;
     subpixel.outside_corners = 0u;
     subpixel.clearance = -CORE_UNKNOWN;
@@ -145,6 +146,7 @@ void core_judge_faces(inout core_subpixel subpixel, elvis_vec3 xi, const core_fr
         const bool is_in_plane = max(core_most(g), -core_least(g)) <= elvis_real(4) * rounding;
         subpixel.is_behind = subpixel.is_behind || (is_far_side && is_in_plane);
         subpixel.may_be_behind = subpixel.may_be_behind || (is_far_side && !is_in_plane);
+        subpixel.is_before = subpixel.is_before || (lies_in && !is_far_side);
         subpixel.is_inside = subpixel.is_inside && (lies_in || highest <= elvis_real(0));
         subpixel.is_outside = subpixel.is_outside || (!lies_in && lowest > elvis_real(0));
         subpixel.inside_corners &= lies_in ? 15u : core_bits(lessThan(g, elvis_vec4(-slack)));

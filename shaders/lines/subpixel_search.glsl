@@ -10,6 +10,7 @@
 //     core_square_on         what a square of the picture shows of the surface, and what an element has to do with it
 //     core_expected_point    where on the surface the middle of a square is
 //     CORE_MOVES_FIRST       1: a subpixel is judged from near it alone; 0: from far, too, where that is enough
+//     CORE_FACES_IN_SURFACE  1: elements on both sides may have faces in the surface
 
 #include "lines/isovalue_test.glsl"
 #include "lines/subpixel_quadtree.glsl"
@@ -70,8 +71,14 @@ void core_ask(core_surface surface, inout core_line_search search) {
     const bool is_inside = is_known && square.subpixel.is_inside;
     const core_isovalue_test test = core_isovalues_in(image, square.subpixel.region);
     const bool shows_contour = square.is_seen && !square.may_hide_contour;
-    core_record_lines(lines, is_judged && lines.wants_contour && shows_contour && is_inside && test.is_met,
-                      is_judged && lines.wants_mesh && square.is_seen && square.subpixel.is_crossed);
+    const bool ends = is_judged && lines.wants_mesh && square.is_seen && square.subpixel.is_crossed;
+#if CORE_FACES_IN_SURFACE
+    search.ending_sides |= ends ? square.wanted_sides : 0u;
+    const bool meets_mesh = ends && (square.wanted_sides == 0u || search.ending_sides == (CORE_BEFORE | CORE_BEHIND));
+#else
+    const bool meets_mesh = ends;
+#endif
+    core_record_lines(lines, is_judged && lines.wants_contour && shows_contour && is_inside && test.is_met, meets_mesh);
     const bool leaves_contour = is_judged && lines.wants_contour && !(is_known && test.is_excluded);
     const bool leaves_mesh = is_judged && lines.wants_mesh && !is_inside;
     const bool is_left_open = leaves_contour || leaves_mesh;

@@ -103,8 +103,7 @@ TEST_CASE("A flag covers a wrong pixel, and on a right one is a false alarm") {
 }
 
 TEST_CASE("The judge finds each flag of a line that is there or is not, and wrong colours of lines") {
-    const Precision precision = GENERATE(Precision::float32, Precision::float64);
-    Example example(precision, true);
+    Example example(Precision::float32, true);
     const Frame right = example.frame;
     const Tally good = example.judge().tally;
     CHECK(good.lines > 200);
