@@ -1,12 +1,10 @@
 #include <core/arrows/scene_arrows.hpp>
 
-#include <core/arrows/arrow_seeds.hpp>
-#include <core/arrows/shape_candidates.hpp>
+#include <core/arrows/scene_places.hpp>
 #include <core/base/bounds.hpp>
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>
-#include <core/base/overloaded.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/render/field/chosen_values.hpp>
@@ -15,12 +13,10 @@
 #include <core/scene/threshold.hpp>
 #include <core/scene/write/write_parts.hpp>
 #include <core/streamline/flow.hpp>
-#include <core/volume/boundary/element_faces.hpp>
-#include <core/volume/element/element_selection.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
+#include <iterator>
 
 namespace elvis {
 
@@ -31,42 +27,13 @@ constexpr std::size_t most_known = 32;
 /** Of the diagonal. */
 constexpr double default_spacing = 0.05;
 
-const SceneSurface* surface_under(const SceneArrows& arrows, const Scene& scene) {
-    if (arrows.on.empty()) {
-        return nullptr;
-    }
-    const auto found =
-        std::ranges::find_if(scene.surfaces, [&](const SceneSurface& surface) { return surface.name == arrows.on; });
-    if (found == scene.surfaces.end()) {
-        throw Error("arrows", "there is no surface named '" + arrows.on + "' on which they could stand");
-    }
-    return &*found;
-}
+const PlacesUse of_arrows{"arrows", "stand"};
 
 /** All that glyphs rest on. */
 std::string key_of(const SceneSurface& own, const SceneSurface* under, const Scene& scene) {
     // Files are named as seen from the working directory.
-    const std::string file = "scene";
-    std::string key = std::to_string(scene.time_step) + '\n' + scene.field.value_or("") + '\n' + scene.threshold.value_or("") +
-                      '\n' + surface_json(own, file).dump();
-    return under == nullptr ? key : key + '\n' + surface_json(*under, file).dump();
-}
-
-/** An expression for the field of that text, whose name may be no word of the language. */
-std::shared_ptr<const Expression> scalar_of(const std::string& text, const Scene& scene, const RuntimeVolume& volume) {
-    const auto& fields = volume.fields();
-    const bool is_name = std::ranges::any_of(fields, [&](const FieldInfo& info) { return info.name == text; });
-    return std::make_shared<const Expression>(is_name ? "'" + text + "'" : with_distances(text, scene.surfaces), fields,
-                                              volume.dimension());
-}
-
-/** Throws where the text of an implicit surface, in which x is the coordinate, would mean a field. */
-const std::string& with_coordinates(const std::string& level, const CutShape& shape, const RuntimeVolume& volume) {
-    const auto is_coordinate = [](const FieldInfo& info) { return info.name == "x" || info.name == "y" || info.name == "z"; };
-    if (std::holds_alternative<ImplicitSurface>(shape) && std::ranges::any_of(volume.fields(), is_coordinate)) {
-        throw Error("arrows", "cannot stand on an implicit surface of a volume with a field that is named as a coordinate");
-    }
-    return level;
+    return std::to_string(scene.time_step) + '\n' + scene.field.value_or("") + '\n' + scene.threshold.value_or("") + '\n' +
+           surface_json(own, "scene").dump() + '\n' + places_key(under, scene);
 }
 
 class ArrowMaker {
@@ -77,9 +44,9 @@ public:
     std::shared_ptr<const ArrowSet> make(const SceneSurface& own, const SceneSurface* under) {
         const SceneArrows& wanted = *own.arrows;
         const double spacing = wanted.spacing.value_or(default_spacing * diagonal_of(m_bounds));
-        std::vector<ArrowSeed> seeds = seeds_on(under, spacing);
+        std::vector<ArrowSeed> seeds = scene_places(under, spacing, m_scene, m_volume, m_bounds, of_arrows, m_control);
         const std::size_t n_all = seeds.size();
-        keep_shown(under, seeds);
+        keep_shown(seeds);
         std::vector<Vector3> vectors = vectors_at(wanted.vectors, seeds);
         double largest = 0;
         for (const Vector3& vector : vectors) {
@@ -102,50 +69,8 @@ public:
     }
 
 private:
-    std::vector<ArrowSeed> seeds_on(const SceneSurface* under, double spacing) const {
-        const ArrowSeeds seeds(m_volume, spacing, m_control);
-        if (under == nullptr) {
-            return seeds.in_volume(m_bounds);
-        }
-        const auto on_level = [&](const std::string& level, const std::vector<double>& values) {
-            return seeds.on_levels(scalar_of(level, m_scene, m_volume), values, m_scene.time_step);
-        };
-        const auto refuse = [&]() -> std::vector<ArrowSeed> {
-            throw Error("arrows",
-                        "cannot stand on '" + under->name +
-                            "': wireframes, tubes and other arrows can not be under them, nor ribbons that are not drawn");
-        };
-        return std::visit(
-            Overloaded{[&](const CutPlane& plane) { return seeds.on_plane(plane, m_bounds); },
-                       [&](const BoundaryFaces& boundary) {
-                           return seeds.on_faces(boundary_faces(m_volume, boundary.groups, &m_control));
-                       },
-                       [&](const ElementFaces&) {
-                           const auto chosen = std::get<ElementFaces>(complete_geometry(*under, m_scene, m_volume));
-                           return seeds.on_faces(faces_of_elements(m_volume, chosen.selection, &m_control));
-                       },
-                       [&](const Isosurfaces& isosurfaces) {
-                           const std::string first = m_volume.fields().empty() ? "" : m_volume.fields()[0].name;
-                           return on_level(under->field.value_or(m_scene.field.value_or(first)), isosurfaces.values);
-                       },
-                       [&](const CutShape& shape) {
-                           const auto found = seeds.on_shape(shape);
-                           const std::optional<std::string> level = found ? std::nullopt : level_of(shape);
-                           return found ? *found : level ? on_level(with_coordinates(*level, shape, m_volume), {0}) : refuse();
-                       },
-                       [&](const FlatElements&) { return refuse(); }, [&](const WireFrame&) { return refuse(); }},
-            under->geometry);
-    }
-
-    /** Those that are neither clipped with the surface nor out of the scene's threshold. */
-    void keep_shown(const SceneSurface* under, std::vector<ArrowSeed>& seeds) {
-        if (under != nullptr) {
-            std::erase_if(seeds, [&](const ArrowSeed& seed) {
-                return std::ranges::any_of(under->clip, [&](const std::array<double, 4>& plane) {
-                    return dot({plane[0], plane[1], plane[2]}, seed.position) + plane[3] < 0;
-                });
-            });
-        }
+    /** Those that are not out of the scene's threshold. */
+    void keep_shown(std::vector<ArrowSeed>& seeds) {
         if (!m_scene.threshold) {
             return;
         }
@@ -205,7 +130,7 @@ void SceneArrowSets::provide(Scene& scene, const RuntimeVolume& volume, const st
         if (!surface.arrows || !surface.is_shown) {
             continue;
         }
-        const SceneSurface* const under = surface_under(*surface.arrows, scene);
+        const SceneSurface* const under = surface_under(surface.arrows->on, scene, of_arrows);
         const std::string key = key_of(surface, under, scene);
         auto known = m_known.find(key);
         if (known == m_known.end()) {

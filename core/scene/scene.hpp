@@ -88,8 +88,15 @@ struct SceneStreamlines {
 
     /** The vector field or expression. */
     std::string flow;
-    /** Points that the lines go through; if there are none, a grid over the volume's bounds. */
+    /** Points that the lines go through; if nothing else is said either, a grid over the volume's bounds. */
     std::vector<Vector3> seeds{};
+    /** Ends of a line of evenly spaced seeds, and how many these are. */
+    std::optional<std::array<Vector3, 2>> seed_line{};
+    std::uint32_t seed_count = 20;
+    /** The name of the scene's surface on which seeds are evenly spaced; or between which distance they are, there or in the
+     * volume. */
+    std::string on{};
+    std::optional<double> spacing{};
     /** Points of the grid along the longest side of the bounds. */
     std::uint32_t seed_grid = 5;
     Direction direction = Direction::both;

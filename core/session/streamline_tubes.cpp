@@ -1,5 +1,6 @@
 #include <core/session/streamline_tubes.hpp>
 
+#include <core/arrows/scene_places.hpp>
 #include <core/base/bounds.hpp>
 #include <core/base/counted.hpp>
 #include <core/base/log.hpp>
@@ -19,7 +20,7 @@ namespace {
 /** More than are in one picture. */
 constexpr std::size_t most_known = 32;
 /** Of the diagonal. */
-constexpr double default_radius = 0.003;
+constexpr double default_radius = 0.003, default_spacing = 0.05;
 
 /** In the middle of boxes that divide the bounds, about as long in each direction. */
 std::vector<Vector3> grid_seeds(const std::array<double, 6>& bounds, std::uint32_t n_longest) {
@@ -41,9 +42,40 @@ std::vector<Vector3> grid_seeds(const std::array<double, 6>& bounds, std::uint32
     return seeds;
 }
 
-std::string key_of(const SceneStreamlines& lines, std::uint32_t time_step) {
-    std::string key = lines.flow + '\n' + (lines.times ? "pathlines" : std::to_string(time_step)) + ' ' +
-                      std::to_string(lines.seed_grid) + ' ' + std::to_string(static_cast<int>(lines.direction));
+const PlacesUse of_streamlines{"streamlines", "begin"};
+
+std::vector<Vector3> line_seeds(const std::array<Vector3, 2>& ends, std::uint32_t n) {
+    std::vector<Vector3> seeds;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        seeds.push_back(plus(ends[0], scaled(minus(ends[1], ends[0]), static_cast<double>(i) / (n - 1))));
+    }
+    return seeds;
+}
+
+std::vector<Vector3> seeds_of(const SceneStreamlines& lines, const Scene& scene, const RuntimeVolume& volume,
+                              const std::array<double, 6>& bounds, const TaskControl& control) {
+    if (!lines.seeds.empty()) {
+        return lines.seeds;
+    }
+    if (lines.seed_line) {
+        return line_seeds(*lines.seed_line, lines.seed_count);
+    }
+    if (lines.on.empty() && !lines.spacing) {
+        return grid_seeds(bounds, lines.seed_grid);
+    }
+    const double spacing = lines.spacing.value_or(default_spacing * diagonal_of(bounds));
+    std::vector<Vector3> seeds;
+    std::ranges::transform(
+        scene_places(surface_under(lines.on, scene, of_streamlines), spacing, scene, volume, bounds, of_streamlines, control),
+        std::back_inserter(seeds), &ArrowSeed::position);
+    return seeds;
+}
+
+std::string key_of(const SceneStreamlines& lines, const Scene& scene) {
+    std::string key = lines.flow + '\n' + (lines.times ? "pathlines" : std::to_string(scene.time_step)) + ' ' +
+                      std::to_string(lines.seed_grid) + ' ' + std::to_string(static_cast<int>(lines.direction)) + ' ' +
+                      std::to_string(lines.seed_line ? lines.seed_count : 0) + '\n' +
+                      places_key(surface_under(lines.on, scene, of_streamlines), scene) + '\n';
     const auto add = [&key](double number) {
         key += ' ';
         key.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -57,6 +89,11 @@ std::string key_of(const SceneStreamlines& lines, std::uint32_t time_step) {
         add(lines.times->start.value_or(std::nan("")));
         add(lines.times->end.value_or(std::nan("")));
         add(lines.times->is_linear ? 1 : 0);
+    }
+    add(lines.spacing.value_or(0));
+    if (lines.seed_line) {
+        std::ranges::for_each((*lines.seed_line)[0], add);
+        std::ranges::for_each((*lines.seed_line)[1], add);
     }
     for (const Vector3& seed : lines.seeds) {
         std::ranges::for_each(seed, add);
@@ -116,17 +153,16 @@ RibbonSurface ribbons_along(const std::vector<Streamline>& lines, const Flow& fl
     return {ribbons};
 }
 
-CutShape shape_of(const SceneStreamlines& wanted, const RuntimeVolume& volume, std::uint32_t time_step,
+CutShape shape_of(const SceneStreamlines& wanted, const Scene& scene, const RuntimeVolume& volume,
                   const std::array<double, 6>& bounds, const TaskControl& control) {
     need_evaluation(volume);
     TraceOptions options;
     options.direction = static_cast<TraceDirection>(wanted.direction);
-    const Flow plain = flow_of(wanted, volume, time_step);
+    const Flow plain = flow_of(wanted, volume, scene.time_step);
     const Flow flow = wanted.ribbon_width ? plain.with_spin() : plain;
     options.tolerance = wanted.tolerance;
     options.most_length = wanted.length.value_or(0);
-    const std::vector<Streamline> lines =
-        trace(flow, wanted.seeds.empty() ? grid_seeds(bounds, wanted.seed_grid) : wanted.seeds, options, control);
+    const std::vector<Streamline> lines = trace(flow, seeds_of(wanted, scene, volume, bounds, control), options, control);
     say_ends(wanted.times ? "pathlines" : "streamlines", wanted.flow, lines);
     if (wanted.ribbon_width) {
         return ribbons_along(lines, flow, *wanted.ribbon_width, control);
@@ -147,13 +183,13 @@ void StreamlineTubes::provide(Scene& scene, const RuntimeVolume& volume, const s
         if (!surface.streamlines || !surface.is_shown) {
             continue;
         }
-        const std::string key = key_of(*surface.streamlines, scene.time_step);
+        const std::string key = key_of(*surface.streamlines, scene);
         auto known = m_known.find(key);
         if (known == m_known.end()) {
             if (m_known.size() >= most_known) {
                 m_known.clear();
             }
-            known = m_known.emplace(key, shape_of(*surface.streamlines, volume, scene.time_step, bounds, control)).first;
+            known = m_known.emplace(key, shape_of(*surface.streamlines, scene, volume, bounds, control)).first;
         }
         surface.geometry = known->second;
         surface.is_shown = !is_empty(known->second);

@@ -268,3 +268,24 @@ TEST_CASE("a large picture is outdated by the next movement, a small one is not"
     made.schedule.release();
     CHECK(made.schedule.is_outdated(*moving, made.now));
 }
+
+TEST_CASE("where all pixels are quick, a movement does not cancel its own pictures") {
+    FrameSchedule schedule;
+    FrameSchedule::Time now{};
+    for (int i = 0; i < 100 && schedule.moving_divisor() > 1; ++i) {
+        schedule.touch(now);
+        const auto step = schedule.next(now);
+        REQUIRE(step);
+        schedule.drawn(*step, true, 1);
+        now += std::chrono::milliseconds(16);
+    }
+    REQUIRE(schedule.moving_divisor() == 1);
+    schedule.touch(now);
+    const auto full = schedule.next(now);
+    REQUIRE(full);
+    CHECK(full->stage == Stage::full);
+    schedule.touch(now);
+    CHECK_FALSE(schedule.is_outdated(*full, now));
+    schedule.release();
+    CHECK(schedule.is_outdated(*full, now));
+}

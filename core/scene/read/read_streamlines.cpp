@@ -23,19 +23,36 @@ ScenePathTimes read_path_times(const JsonObject& object) {
     return times;
 }
 
-} // namespace
-
-SceneStreamlines read_streamlines(const JsonObject& object) {
-    SceneStreamlines lines;
-    lines.flow = object.text("flow");
+void read_seeds(const JsonObject& object, SceneStreamlines& lines) {
     if (object.has("seeds")) {
         for (const std::vector<double>& seed : object.rows("seeds")) {
             lines.seeds.push_back(fixed<3>(seed));
         }
     }
+    if (object.has("seed_line")) {
+        const std::vector<std::vector<double>> ends = object.rows("seed_line");
+        lines.seed_line = {fixed<3>(ends[0]), fixed<3>(ends[1])};
+    }
+    if (object.has("seed_count")) {
+        lines.seed_count = object.integer("seed_count");
+    }
+    if (object.has("on")) {
+        lines.on = object.text("on");
+    }
+    if (object.has("spacing")) {
+        lines.spacing = object.number("spacing");
+    }
     if (object.has("seed_grid")) {
         lines.seed_grid = object.integer("seed_grid");
     }
+}
+
+} // namespace
+
+SceneStreamlines read_streamlines(const JsonObject& object) {
+    SceneStreamlines lines;
+    lines.flow = object.text("flow");
+    read_seeds(object, lines);
     if (object.has("direction")) {
         lines.direction = direction_of(object);
     }

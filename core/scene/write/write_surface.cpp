@@ -108,11 +108,18 @@ SceneJson shape_json(const CutShape& shape, const std::string& scene) {
 void add_streamlines(SceneJson& json, const SceneStreamlines& lines) {
     constexpr const char* words[] = {"both", "forward", "backward"};
     json["flow"] = lines.flow;
-    if (lines.seeds.empty()) {
-        json["seed_grid"] = lines.seed_grid;
-    } else {
+    if (!lines.seeds.empty()) {
         json["seeds"] = lines.seeds;
+    } else if (lines.seed_line) {
+        json["seed_line"] = *lines.seed_line;
+        json["seed_count"] = lines.seed_count;
+    } else if (lines.on.empty() && !lines.spacing) {
+        json["seed_grid"] = lines.seed_grid;
     }
+    if (!lines.on.empty()) {
+        json["on"] = lines.on;
+    }
+    set(json, "spacing", lines.spacing);
     json["direction"] = words[static_cast<std::size_t>(lines.direction)];
     set(json, "length", lines.length);
     json["tolerance"] = lines.tolerance;

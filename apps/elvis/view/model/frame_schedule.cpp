@@ -55,8 +55,10 @@ bool FrameSchedule::is_outdated(const Step& step, Time now) const {
     if (step.version == m_version) {
         return false;
     }
-    // Small pictures are finished: cancelled ones would show nothing at all of a movement.
-    return step.stage != FrameStage::moving || !moves(now);
+    // Pictures of a movement are finished, those of all pixels, too, where these are quick: of cancelled ones nothing would be
+    // seen at all.
+    const bool is_of_movement = step.stage == FrameStage::moving || (step.stage == FrameStage::full && m_divisor == 1);
+    return !is_of_movement || !moves(now);
 }
 
 void FrameSchedule::drawn(const Step& step, bool is_refinable, double milliseconds) {
@@ -149,13 +151,14 @@ std::uint32_t FrameSchedule::wanted_divisor(const Sample& drawn) const {
     if (wanted > m_divisor) {
         return wanted;
     }
-    if (drawn.divisor != m_divisor) {
-        // A picture of another size tells less than one of this.
-        return m_divisor;
-    }
     const auto now = std::find(first, divisors.end(), m_divisor);
     const bool has_larger = now != first && now != divisors.end();
-    return wanted == m_divisor && has_larger && is_worth_a_trial(*(now - 1), drawn) ? *(now - 1) : wanted;
+    // A picture of another size tells less than one of this.
+    if (drawn.divisor != m_divisor || !has_larger) {
+        return m_divisor;
+    }
+    // One size at a time: two measured times may lead far astray.
+    return wanted < m_divisor || is_worth_a_trial(*(now - 1), drawn) ? *(now - 1) : m_divisor;
 }
 
 bool FrameSchedule::is_worth_a_trial(std::uint32_t larger, const Sample& drawn) const {
