@@ -112,6 +112,38 @@ TEST_CASE("Streamlines from a grid are drawn, and colours of another field are o
     CHECK(volume.render(none).info().n_hit_pixels == 0);
 }
 
+TEST_CASE("Seeds on a line, on a plane and in the volume are the points that they stand for") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(library, folder, box));
+    const auto depths = [&](const std::string& seeds) {
+        scene shown = with_surface(
+            library, R"({"type": "plane", "plane": [0, 0, 1, 0], "name": "cut", "visible": false, "clip": [[0, 1, 0, -0.2]]})",
+            "float64");
+        shown.set("/surfaces/-",
+                  R"s({"type": "streamlines", "flow": "grad(x)", "length": 0.3, "radius": 0.03, )s" + seeds + "}");
+        return volume.render(shown).read<double>(ELVIS_CHANNEL_DEPTH);
+    };
+    const auto same = [](const std::vector<double>& one, const std::vector<double>& other) {
+        // The bounds' middle is 0 but for rounding.
+        const auto are_equal = [](double a, double b) { return std::abs(a - b) < 1e-9 || (std::isnan(a) && std::isnan(b)); };
+        return std::ranges::count_if(one, [](double depth) { return std::isfinite(depth); }) > 10 &&
+               std::ranges::equal(one, other, are_equal);
+    };
+    CHECK(same(depths(R"("seed_line": [[-0.5, 0, 0], [0.5, 0, 0.5]], "seed_count": 3)"),
+               depths(R"("seeds": [[-0.5, 0, 0], [0, 0, 0.25], [0.5, 0, 0.5]])")));
+    // What is clipped away with the plane has none. The lattice goes through the middle of the bounds.
+    CHECK(same(depths(R"("on": "cut", "spacing": 0.7)"), depths(R"("seeds": [[-0.7, 0.7, 0], [0, 0.7, 0], [0.7, 0.7, 0]])")));
+    CHECK(same(depths(R"("spacing": 1.5)"), depths(R"("seeds": [[0, 0, 0]])")));
+    CHECK_THROWS_WITH(depths(R"("on": "nothing")"),
+                      Catch::Contains("there is no surface named 'nothing' on which they could begin"));
+    CHECK_THROWS_WITH(depths(R"("on": "cut", "seed_grid": 3)"), Catch::Contains("means nothing beside"));
+    scene shown = with_surface(library, R"({"type": "boundary", "name": "all", "visible": false})", "float32");
+    shown.set("/surfaces/-",
+              R"s({"type": "streamlines", "flow": "x*grad(y) - y*grad(x)", "on": "all", "spacing": 0.5, "radius": 0.02})s");
+    CHECK(volume.render(shown).info().n_hit_pixels > 500);
+}
+
 TEST_CASE("Streamlines come as arrays, with values at their points") {
     const context library(own_plugins());
     const TemporaryFolder folder;

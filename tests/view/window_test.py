@@ -363,7 +363,11 @@ def edits_lines_arrows_and_what_is_shown_of_the_volume(window):
     window.click("items/add")
     window.click("add/Streamlines")
     window.wait_for(lambda screen: screen["items"][-1] == "Streamlines velocity", "the streamlines")
-    window.click("streamlines/grid", 0.05)
+    window.click("streamlines/seeds")
+    window.click("streamlines/seeds/evenly")
+    window.wait_for(lambda screen: screen["scene"]["surfaces"][1].get("spacing", 0) > 0, "evenly spaced seeds")
+    window.click("streamlines/seeds")
+    window.click("streamlines/seeds/points")
     screen = window.wait_for(lambda screen: len(screen["scene"]["surfaces"][1].get("seeds", [])) == 1, "a seed")
     seed = screen["scene"]["surfaces"][1]["seeds"][0]
     window.click("item/0/shown")
