@@ -9,7 +9,7 @@ namespace elvis::view {
 namespace {
 
 /** Where seeds are: each kind has keys of its own, which exclude those of the others. */
-constexpr std::array<const char*, 5> keys = {"seeds", "seed_line", "seed_count", "on", "spacing"};
+constexpr std::array<const char*, 6> keys = {"seeds", "seed_line", "seed_count", "seed_grid", "on", "spacing"};
 enum Kind : std::size_t { on_a_grid, points, on_a_line, evenly };
 
 Kind kind_of(const Json& lines) {
@@ -21,7 +21,6 @@ Kind kind_of(const Json& lines) {
 
 void begin_kind(Kind kind, const VolumeFacts& volume, Json& lines) {
     std::ranges::for_each(keys, [&](const char* key) { lines.erase(key); });
-    lines.erase("seed_grid");
     const Vector3 middle = middle_of(volume.bounds);
     if (kind == points) {
         lines["seeds"] = {middle};
@@ -108,7 +107,8 @@ bool edit_seeds(Ui& ui, Json& lines) {
     }
     const bool is_changed = text(ui, "streamlines/on", "On", lines, "on",
                                  "Name of the surface on which lines begin; in the volume if left empty", "the volume");
-    return positive_number(ui, "streamlines/spacing", "Spacing", lines, "spacing", extent / 20, "Distance between seeds") ||
+    return edit_optional(ui, "streamlines/spacing", "Spacing", lines, "spacing", 0.1 * extent, extent / 20,
+                         "Distance between seeds; else a twentieth of the volume's diagonal") ||
            is_changed;
 }
 
