@@ -294,7 +294,7 @@ public:
     py::dict trace(const std::string& field, const Doubles& seeds, std::uint32_t direction,
                    const std::vector<std::string>& fields, double tolerance, double length, std::uint32_t time_step,
                    bool is_unsteady, bool is_linear, std::optional<double> start_time, std::optional<double> end_time,
-                   const py::object& progress) const {
+                   const std::string& seed_surface, double seed_spacing, const py::object& progress) const {
         if (seeds.ndim() != 2 || seeds.shape(1) != 3) {
             throw error(ELVIS_ERROR_INVALID_ARGUMENT, "seeds: an array of the shape (n, 3) is wanted");
         }
@@ -317,6 +317,8 @@ public:
         wanted.interpolation = is_linear ? ELVIS_TIME_LINEAR : ELVIS_TIME_CUBIC;
         wanted.start_time = start_time.value_or(0);
         wanted.end_time = end_time.value_or(0);
+        wanted.seed_surface = seed_surface.empty() ? nullptr : seed_surface.c_str();
+        wanted.seed_spacing = seed_spacing;
         traced found;
         run(progress, [&](const task& watch) { found = m_data.trace(wanted, watch); });
         const auto n = static_cast<py::ssize_t>(found.times.size());
@@ -558,7 +560,7 @@ PYBIND11_MODULE(_elvis, module) {
              py::arg("time_step"), py::arg("progress"))
         .def("trace", &Volume::trace, py::arg("field"), py::arg("seeds"), py::arg("direction"), py::arg("fields"),
              py::arg("tolerance"), py::arg("length"), py::arg("time_step"), py::arg("is_unsteady"), py::arg("is_linear"),
-             py::arg("start_time"), py::arg("end_time"), py::arg("progress"))
+             py::arg("start_time"), py::arg("end_time"), py::arg("seed_surface"), py::arg("seed_spacing"), py::arg("progress"))
         .def("walk_line", &Volume::walk_line, py::arg("start"), py::arg("end"), py::arg("fields"), py::arg("time_step"),
              py::arg("progress"))
         .def("update_field", &Volume::update_field, py::arg("field"), py::arg("time_step"), py::arg("element_class"),

@@ -1,6 +1,11 @@
 #include "call.hpp"
 #include "columns.hpp"
 
+#include <core/arrows/scene_places.hpp>
+#include <core/base/bounds.hpp>
+
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -22,6 +27,27 @@ std::vector<Vector3> seeds_of(const elvis_tracing& tracing) {
         seeds.push_back({at[0], at[1], at[2]});
     }
     return seeds;
+}
+
+/** Evenly spaced on the surface that the caller describes. */
+void add_seeds_on_surface(const elvis_tracing& tracing, Data& data, std::vector<Vector3>& seeds) {
+    if (!(tracing.seed_spacing >= 0 && std::isfinite(tracing.seed_spacing))) {
+        throw InvalidArgument("seed_spacing", "is not negative, and finite");
+    }
+    if (tracing.seed_surface == nullptr) {
+        return;
+    }
+    const auto surface = nlohmann::json::parse(tracing.seed_surface, nullptr, false);
+    if (surface.is_discarded()) {
+        throw InvalidArgument("seed_surface", "is no JSON");
+    }
+    Scene scene = scene_of({{"version", 1}, {"surfaces", {surface}}}, "seed_surface");
+    scene.time_step = tracing.time_step;
+    const std::array<double, 6>& bounds = data.bounds();
+    const double spacing = tracing.seed_spacing > 0 ? tracing.seed_spacing : 0.05 * diagonal_of(bounds);
+    std::ranges::transform(
+        scene_places(&scene.surfaces.at(0), spacing, scene, data.volume, bounds, {"seeds", "lie"}, *data.control),
+        std::back_inserter(seeds), &ArrowSeed::position);
 }
 
 TraceOptions options_of(const elvis_tracing& tracing) {
@@ -155,9 +181,10 @@ elvis_result elvis_data_trace(elvis_data* data, const elvis_tracing* tracing, co
         Data& state = *data->state;
         check_time_step(state.volume, known.time_step);
         need_evaluation(state.volume);
-        const std::vector<Vector3> seeds = seeds_of(known);
+        std::vector<Vector3> seeds = seeds_of(known);
         const TraceOptions options = options_of(known);
         const DataTask running(state, task);
+        add_seeds_on_surface(known, state, seeds);
         const Columns columns = columns_of(state.volume, known.fields, known.n_fields);
         const bool is_steady = (known.flags & ELVIS_TRACE_PATHLINES) == 0;
         FlowTimes times;

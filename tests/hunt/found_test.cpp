@@ -59,11 +59,11 @@ TEST_CASE("A plane along faces of strongly bent elements shows their outline in 
     const auto check = [](const Tally& tally, std::uint64_t most_open) {
         CHECK(tally.lines > 200);
         CHECK(tally.far + tally.near == 0);
-        // They may fold back, as far as is known beside them.
+        // They may fold back, as far as is known beside them. In faces a line counts that both elements are seen to end at.
         CHECK(tally.all_false_alarms <= most_open);
     };
     SECTION("between them") { check(judge_cut({bulge(0, 1)}, 0.65, precision), 21); }
-    SECTION("in them") { check(judge_cut({bulge(0, 0.5), bulge(0.5, 1)}, 0.5, precision), 4); }
+    SECTION("in them") { check(judge_cut({bulge(0, 0.5), bulge(0.5, 1)}, 0.5, precision), 15); }
 }
 
 TEST_CASE("Surfaces through the eye are not seen, and are no reason for a flag") {

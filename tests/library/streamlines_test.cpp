@@ -168,4 +168,17 @@ TEST_CASE("Streamlines come as arrays, with values at their points") {
     }
     wanted.direction = 3;
     CHECK_THROWS_WITH(volume.trace(wanted), Catch::Contains("direction"));
+    // Points and, behind them, nine on a plane.
+    wanted.direction = ELVIS_LINE_FORWARD;
+    wanted.seed_surface = R"({"type": "plane", "plane": [1, 0, 0, -0.1]})";
+    wanted.seed_spacing = 0.7;
+    const traced more = volume.trace(wanted);
+    REQUIRE(more.first.size() == 13);
+    for (std::size_t line = 3; line < 12; ++line) {
+        CHECK(more.positions[3 * more.first[line]] == Approx(0.1).margin(1e-12));
+    }
+    wanted.seed_surface = R"({"type": "wireframe", "name": "wires"})";
+    CHECK_THROWS_WITH(volume.trace(wanted), Catch::Contains("seeds: cannot lie on 'wires'"));
+    wanted.seed_surface = R"({"type": "plain"})";
+    CHECK_THROWS_WITH(volume.trace(wanted), Catch::Contains("plain"));
 }

@@ -92,6 +92,11 @@ class Values(WithVolume):
             np.testing.assert_allclose(line.values["p"], x * x * y + z, atol=1e-12)
             self.assertEqual(line.values["velocity"].shape, (len(x), 3))
         self.assertRaises(elvis.Error, lambda: self.volume.streamlines("p", [0, 0, 0]))
+        evenly = self.volume.streamlines("grad(x)", elvis.Surface(type="plane", plane=[1, 0, 0, 0]), spacing=0.4, length=0.1)
+        self.assertGreater(len(evenly), 3)
+        for line in evenly:
+            seed = line.positions[np.argmin(np.abs(line.arc_lengths))]
+            self.assertLess(abs(seed[0]), 1e-12)
 
     def test_pathlines_follow_a_rotation_that_gets_faster(self):
         with open(self.path("faster.json"), "w", encoding="utf-8") as file:

@@ -10,6 +10,8 @@
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -26,6 +28,10 @@ struct StreamlinesArguments {
     std::string field;
     std::vector<std::string> line;
     std::string seeds;
+    /** Of surfaces on which seeds are. */
+    std::string cut_plane;
+    std::vector<std::string> boundary;
+    double spacing = 0;
     std::size_t count = 20;
     std::string direction = "both";
     std::vector<std::string> fields;
@@ -38,22 +44,47 @@ struct StreamlinesArguments {
     std::optional<double> start_time, end_time;
 };
 
-std::vector<double> seeds_of(const StreamlinesArguments& arguments) {
-    if (arguments.line.empty() == arguments.seeds.empty()) {
-        throw UsageError(arguments.is_unsteady ? "elvis pathlines" : "elvis streamlines", "takes one of --line and --seeds");
+/** As a scene has it; empty: seeds are points. */
+std::string seed_surface_of(const StreamlinesArguments& arguments) {
+    const int n_kinds =
+        !arguments.line.empty() + !arguments.seeds.empty() + !arguments.cut_plane.empty() + !arguments.boundary.empty();
+    if (n_kinds != 1) {
+        throw UsageError(arguments.is_unsteady ? "elvis pathlines" : "elvis streamlines",
+                         "takes one of --line, --seeds, --cut-plane and --boundary");
     }
+    if (!arguments.cut_plane.empty()) {
+        return nlohmann::json{{"type", "plane"}, {"plane", numbers("--cut-plane", arguments.cut_plane, 4, 4)}}.dump();
+    }
+    if (arguments.boundary.empty()) {
+        return "";
+    }
+    nlohmann::json surface = {{"type", "boundary"}};
+    for (const std::string& name : arguments.boundary) {
+        // Without a name the list holds an empty one.
+        if (!name.empty() && name != "{}") {
+            surface["groups"].push_back(name);
+        }
+    }
+    return surface.dump();
+}
+
+std::vector<double> seeds_of(const StreamlinesArguments& arguments) {
     if (!arguments.line.empty()) {
         return points_along({point("--line", arguments.line[0]), point("--line", arguments.line[1])}, arguments.count)
             .positions;
     }
     std::vector<double> seeds;
+    if (arguments.seeds.empty()) {
+        return seeds;
+    }
     for (const Vector3& point : read_points(arguments.seeds)) {
         seeds.insert(seeds.end(), point.begin(), point.end());
     }
     return seeds;
 }
 
-traced traced_lines(const data& volume, const StreamlinesArguments& arguments, const std::vector<double>& seeds) {
+traced traced_lines(const data& volume, const StreamlinesArguments& arguments, const std::string& surface,
+                    const std::vector<double>& seeds) {
     std::vector<elvis_string> names;
     for (const std::string& name : arguments.fields) {
         names.push_back(name.c_str());
@@ -75,6 +106,8 @@ traced traced_lines(const data& volume, const StreamlinesArguments& arguments, c
     wanted.interpolation = arguments.is_linear ? ELVIS_TIME_LINEAR : ELVIS_TIME_CUBIC;
     wanted.start_time = arguments.start_time.value_or(0);
     wanted.end_time = arguments.end_time.value_or(0);
+    wanted.seed_surface = surface.empty() ? nullptr : surface.c_str();
+    wanted.seed_spacing = arguments.spacing;
     TaskControl control;
     const ProgressBar progress(control);
     const InterruptGuard guard(control);
@@ -114,11 +147,12 @@ void run_streamlines(const StreamlinesArguments& arguments) {
     if (!is_csv && !arguments.output.ends_with(".vtp")) {
         throw UsageError("--output", "'" + arguments.output + "' ends neither in .vtp nor in .csv");
     }
+    const std::string surface = seed_surface_of(arguments);
     const std::vector<double> seeds = seeds_of(arguments);
     const context library = library_context();
     const data volume = open_volume(library, arguments.volume, arguments.time_step);
     const std::vector<LineColumn> columns = columns_of(volume, arguments.fields);
-    const traced lines = traced_lines(volume, arguments, seeds);
+    const traced lines = traced_lines(volume, arguments, surface, seeds);
     is_csv ? write_line_csv(lines, columns, arguments.output) : write_vtp(lines, columns, arguments.output);
     say_ends(lines);
 }
@@ -145,6 +179,14 @@ void add_common(CLI::App& command, StreamlinesArguments& arguments) {
     command.add_option("--line", arguments.line, "x,y,z x,y,z: seeds evenly along a line")->expected(2);
     command.add_option("--count", arguments.count, "Seeds along the line; default: 20")->check(CLI::Range(1, 1000000));
     command.add_option("--seeds", arguments.seeds, "File with three numbers a line; # starts a comment");
+    command.add_option("--cut-plane", arguments.cut_plane, "a,b,c,d: seeds evenly on the plane ax+by+cz+d=0");
+    CLI::Option* const boundary =
+        command.add_option("--boundary", arguments.boundary,
+                           "Seeds evenly on the whole boundary; with a name, on that group of it; may be repeated");
+    boundary->expected(0, 1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command
+        .add_option("--spacing", arguments.spacing, "Distance between seeds on surfaces; default: 0.05 of the bounds' diagonal")
+        ->check(CLI::PositiveNumber);
     command.add_option("--direction", arguments.direction, "both, forward or backward; default: " + arguments.direction)
         ->check(CLI::IsMember({"both", "forward", "backward"}));
     command.add_option("--values", arguments.fields, "Field or expression whose values are written, too (repeatable)")

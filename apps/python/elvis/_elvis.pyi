@@ -43,7 +43,8 @@ class Volume:
     ) -> dict[str, Any]: ...
     def trace(
         self, field: str, seeds: NDArray[np.float64], direction: int, fields: list[str], tolerance: float, length: float,
-        time_step: int, is_unsteady: bool, is_linear: bool, start_time: float | None, end_time: float | None, progress: Progress
+        time_step: int, is_unsteady: bool, is_linear: bool, start_time: float | None, end_time: float | None, seed_surface: str,
+        seed_spacing: float, progress: Progress
     ) -> dict[str, Any]: ...
     def walk_line(self, start: list[float], end: list[float], fields: list[str], time_step: int, progress: Progress) -> str: ...
     def probe(

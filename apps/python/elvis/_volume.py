@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from . import _elvis
 from ._answers import Break, Integral, Mesh, Streamline, breaks_of, mesh_of, streamlines_of
@@ -19,6 +19,14 @@ from ._progress import Progress, progress_for
 from ._scene import Scene
 from ._view import View
 from .scene_objects import Surface
+
+
+def _seeds_of(seeds: ArrayLike | Surface) -> tuple[NDArray[np.float64], str]:
+    """Points, and the surface on which there are others, as JSON."""
+    if isinstance(seeds, Surface):
+        return np.empty((0, 3)), json.dumps(seeds.to_dict())
+    return np.atleast_2d(np.asarray(seeds, dtype=float)), ""
+
 
 @dataclass(frozen=True)
 class Field:
@@ -159,27 +167,29 @@ class Volume:
                                          0.0 if isosurface is None else isosurface, field, list(contours), names, tolerance, time_step, report)
         return mesh_of(found, names, n_values)
 
-    def streamlines(self, field: str, seeds: ArrayLike, fields: str | Sequence[str] = (), *, direction: str = "both", tolerance: float = 1e-9,
-                    length: float = 0.0, time_step: int = 0, progress: Progress = True) -> list[Streamline]:
+    def streamlines(self, field: str, seeds: ArrayLike | Surface, fields: str | Sequence[str] = (), *, spacing: float = 0.0, direction: str = "both",
+                    tolerance: float = 1e-9, length: float = 0.0, time_step: int = 0, progress: Progress = True) -> list[Streamline]:
         """Curves that are everywhere tangent to a vector field, one through each seed.
 
-        field: a vector by name or expression. seeds: (n, 3). fields: names or expressions whose values at the points are wanted.
+        field: a vector by name or expression. seeds: (n, 3), or a surface, such as a plane or a group of the boundary, on which they are
+        evenly spaced: spacing, 0 is 0.05 of the diagonal. fields: names or expressions whose values at the points are wanted.
         direction: both, forward or backward. tolerance: of a step's error, as a share of the diagonal of the bounds. length: of a line
         in each direction; 0 is ten times the diagonal.
         """
         names = [fields] if isinstance(fields, str) else list(fields)
         n_values = [self._handle.count_values(name) for name in names]
         with progress_for(progress) as report:
-            found = self._handle.trace(field, np.atleast_2d(np.asarray(seeds, dtype=float)), ("both", "forward", "backward").index(direction),
-                                       names, tolerance, length, time_step, False, False, None, None, report)
+            points, surface = _seeds_of(seeds)
+            found = self._handle.trace(field, points, ("both", "forward", "backward").index(direction), names, tolerance, length, time_step,
+                                       False, False, None, None, surface, spacing, report)
         return streamlines_of(found, names, n_values)
 
-    def pathlines(self, field: str, seeds: ArrayLike, fields: str | Sequence[str] = (), *, direction: str = "forward",
+    def pathlines(self, field: str, seeds: ArrayLike | Surface, fields: str | Sequence[str] = (), *, spacing: float = 0.0, direction: str = "forward",
                   start_time: float | None = None, end_time: float | None = None, interpolation: str = "cubic", tolerance: float = 1e-9,
                   length: float = 0.0, progress: Progress = True) -> list[Streamline]:
         """The ways of points that move with a vector field through the time steps, one from each seed.
 
-        field: a vector by name or expression, interpolated between time steps (cubic or linear). seeds: (n, 3). fields: names or
+        field: a vector by name or expression, interpolated between time steps (cubic or linear). seeds, spacing: as of streamlines. fields: names or
         expressions whose values along the ways, at the points' times, are wanted. direction: forward in time, backward or both.
         start_time: when points are at their seeds; the first time step, backward the last one. end_time: till when, backward since
         when, they are followed. tolerance and length: as of streamlines, but without a limit of length.
@@ -187,9 +197,9 @@ class Volume:
         names = [fields] if isinstance(fields, str) else list(fields)
         n_values = [self._handle.count_values(name) for name in names]
         with progress_for(progress) as report:
-            found = self._handle.trace(field, np.atleast_2d(np.asarray(seeds, dtype=float)), ("both", "forward", "backward").index(direction),
-                                       names, tolerance, length, 0, True, ("cubic", "linear").index(interpolation) == 1, start_time,
-                                       end_time, report)
+            points, surface = _seeds_of(seeds)
+            found = self._handle.trace(field, points, ("both", "forward", "backward").index(direction), names, tolerance, length, 0, True,
+                                       ("cubic", "linear").index(interpolation) == 1, start_time, end_time, surface, spacing, report)
         return streamlines_of(found, names, n_values)
 
     def warp(self, field: str, factor: float = 1.0, *, imaginary: str | None = None, phase: float = 0.0, time_step: int = 0,

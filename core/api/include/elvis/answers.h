@@ -143,7 +143,7 @@ typedef struct elvis_tracing {
     uint32_t time_step;
     /** A vector field or expression. */
     elvis_string field;
-    /** Points that lines go through, 3 numbers each: one line a seed. */
+    /** Points that lines go through, 3 numbers each: one line a seed. More may come from `seed_surface`. */
     const double* seeds;
     uint64_t n_seeds;
     elvis_line_direction direction;
@@ -161,6 +161,13 @@ typedef struct elvis_tracing {
     double start_time;
     /** Of one direction: till when, or backward since when, lines go; if it is not set: as far as time steps do. */
     double end_time;
+    /**
+     * Further seeds, evenly spaced on a surface: JSON as in a scene's `surfaces`, such as
+     * {"type": "boundary", "groups": ["inflow"]}; NULL: none. On levels, those of the data's time step `time_step`.
+     */
+    elvis_string seed_surface;
+    /** Distance between these, in the world; 0: 0.05 of the diagonal of the bounds. */
+    double seed_spacing;
 } elvis_tracing;
 
 typedef struct elvis_lines_info {
