@@ -80,13 +80,15 @@ void core_ask(core_surface surface, inout core_line_search search) {
 #endif
     core_record_lines(lines, is_judged && lines.wants_contour && shows_contour && is_inside && test.is_met, meets_mesh);
     const bool leaves_contour = is_judged && lines.wants_contour && !(is_known && test.is_excluded);
-    const bool leaves_mesh = is_judged && lines.wants_mesh && !is_inside;
+    // It ends on one side: open, unless one on the other side ends, too. More of it need not be known.
+    const bool is_one_sided = ends && !meets_mesh;
+    const bool leaves_mesh = is_judged && lines.wants_mesh && !is_inside && !is_one_sided;
     const bool is_left_open = leaves_contour || leaves_mesh;
     const bool moves_on = may_move && (CORE_MOVES_FIRST != 0 || is_left_open);
     const bool is_divided = is_left_open && !moves_on && search.level < search.most_level;
     // A square larger than the pixel cannot prove a line. Its open answer stays unless a smaller square finds one.
     const bool stays_open = !moves_on && (!is_divided || square.is_oversized);
-    core_leave_open(lines, leaves_contour && stays_open, leaves_mesh && stays_open);
+    core_leave_open(lines, leaves_contour && stays_open, (leaves_mesh && stays_open) || is_one_sided);
     lines.is_estimated = lines.is_estimated || (is_judged && test.is_estimated);
     search.lines = lines;
 #if CORE_STRONGLY_BENT

@@ -391,7 +391,7 @@ def edits_lines_arrows_and_what_is_shown_of_the_volume(window):
     screen = window.settle()
     require(not any("error" in message for message in screen["messages"][-2:]), f"it says {screen['messages']}")
     window.picture("streamlines.png")
-    for _ in range(9):
+    for _ in range(10):
         window.key("ctrl+z")
     window.wait_for(lambda screen: screen["items"] == ["Boundary"] and "warp" not in screen["scene"], "all to go again")
     window.settle()
