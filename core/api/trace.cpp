@@ -2,12 +2,13 @@
 #include "columns.hpp"
 
 #include <core/arrows/scene_places.hpp>
-#include <core/base/bounds.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 namespace elvis::library {
@@ -44,7 +45,7 @@ void add_seeds_on_surface(const elvis_tracing& tracing, Data& data, std::vector<
     Scene scene = scene_of({{"version", 1}, {"surfaces", {surface}}}, "seed_surface");
     scene.time_step = tracing.time_step;
     const std::array<double, 6>& bounds = data.bounds();
-    const double spacing = tracing.seed_spacing > 0 ? tracing.seed_spacing : 0.05 * diagonal_of(bounds);
+    const double spacing = spacing_of(tracing.seed_spacing > 0 ? std::optional(tracing.seed_spacing) : std::nullopt, bounds);
     std::ranges::transform(
         scene_places(&scene.surfaces.at(0), spacing, scene, data.volume, bounds, {"seeds", "lie"}, *data.control),
         std::back_inserter(seeds), &ArrowSeed::position);

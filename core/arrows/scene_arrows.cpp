@@ -1,7 +1,6 @@
 #include <core/arrows/scene_arrows.hpp>
 
 #include <core/arrows/scene_places.hpp>
-#include <core/base/bounds.hpp>
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/log.hpp>
@@ -24,9 +23,6 @@ namespace {
 
 /** More are in no picture. */
 constexpr std::size_t most_known = 32;
-/** Of the diagonal. */
-constexpr double default_spacing = 0.05;
-
 const PlacesUse of_arrows{"arrows", "stand"};
 
 /** All that glyphs rest on. */
@@ -43,7 +39,7 @@ public:
 
     std::shared_ptr<const ArrowSet> make(const SceneSurface& own, const SceneSurface* under) {
         const SceneArrows& wanted = *own.arrows;
-        const double spacing = wanted.spacing.value_or(default_spacing * diagonal_of(m_bounds));
+        const double spacing = spacing_of(wanted.spacing, m_bounds);
         std::vector<ArrowSeed> seeds = scene_places(under, spacing, m_scene, m_volume, m_bounds, of_arrows, m_control);
         const std::size_t n_all = seeds.size();
         keep_shown(seeds);

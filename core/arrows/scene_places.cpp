@@ -1,6 +1,7 @@
 #include <core/arrows/scene_places.hpp>
 
 #include <core/arrows/shape_candidates.hpp>
+#include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
 #include <core/base/overloaded.hpp>
 #include <core/scene/frame_request.hpp>
@@ -76,6 +77,10 @@ std::vector<ArrowSeed> places_on(const SceneSurface& under, const ArrowSeeds& se
 }
 
 } // namespace
+
+double spacing_of(const std::optional<double>& wanted, const std::array<double, 6>& bounds) {
+    return wanted.value_or(0.05 * diagonal_of(bounds));
+}
 
 const SceneSurface* surface_under(const std::string& name, const Scene& scene, const PlacesUse& use) {
     if (name.empty()) {

@@ -10,6 +10,7 @@
 #include <core/scene/scene.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace elvis {
 struct PlacesUse {
     std::string what, verb;
 };
+
+/** What is wanted, or else 0.05 of the diagonal of the volume's bounds. */
+double spacing_of(const std::optional<double>& wanted, const std::array<double, 6>& bounds);
 
 /** Null for an empty name. Throws Error where the scene has no surface of that name. */
 const SceneSurface* surface_under(const std::string& name, const Scene& scene, const PlacesUse& use);

@@ -93,9 +93,9 @@ struct SceneStreamlines {
     /** Ends of a line of evenly spaced seeds, and how many these are. */
     std::optional<std::array<Vector3, 2>> seed_line{};
     std::uint32_t seed_count = 20;
-    /** The name of the scene's surface on which seeds are evenly spaced; or between which distance they are, there or in the
-     * volume. */
+    /** The name of the scene's surface on which seeds are evenly spaced. */
     std::string on{};
+    /** Between seeds, there or, without a surface, in the volume; by default a part of the diagonal of the bounds. */
     std::optional<double> spacing{};
     /** Points of the grid along the longest side of the bounds. */
     std::uint32_t seed_grid = 5;

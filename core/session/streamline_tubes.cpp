@@ -20,7 +20,7 @@ namespace {
 /** More than are in one picture. */
 constexpr std::size_t most_known = 32;
 /** Of the diagonal. */
-constexpr double default_radius = 0.003, default_spacing = 0.05;
+constexpr double default_radius = 0.003;
 
 /** In the middle of boxes that divide the bounds, about as long in each direction. */
 std::vector<Vector3> grid_seeds(const std::array<double, 6>& bounds, std::uint32_t n_longest) {
@@ -63,7 +63,7 @@ std::vector<Vector3> seeds_of(const SceneStreamlines& lines, const Scene& scene,
     if (lines.on.empty() && !lines.spacing) {
         return grid_seeds(bounds, lines.seed_grid);
     }
-    const double spacing = lines.spacing.value_or(default_spacing * diagonal_of(bounds));
+    const double spacing = spacing_of(lines.spacing, bounds);
     std::vector<Vector3> seeds;
     std::ranges::transform(
         scene_places(surface_under(lines.on, scene, of_streamlines), spacing, scene, volume, bounds, of_streamlines, control),

@@ -43,11 +43,21 @@ void core_projection_element(core_ray ray, core_traced_ray traced_ray, uint elem
     search.phase = is_begun ? CORE_PHASE_CLIP : CORE_PHASE_SEEK;
 }
 
+// Leaves the stretch behind in which the ray may be in the element. Shorter ones are near the ends of what the neighbours have.
+void core_projection_pass(bool is_passed, core_traced_ray traced_ray, inout core_projection_search search) {
+    const bool is_long = search.segment_from < CORE_FAR &&
+                         search.segment_to - search.segment_from > CORE_LONGEST_TOUCH * traced_ray.tolerance && CORE_PLAIN == 0;
+    search.undecided_t = is_passed && is_long ? min(search.undecided_t, search.segment_from) : search.undecided_t;
+}
+
 // Notes what has been left out because rounding decides whether the ray is in the element: it runs along a face.
 void core_projection_touch(core_traced_ray traced_ray, inout core_projection_search search) {
     const core_segment segment = search.segment;
     const bool is_touching = segment.is_touched && segment.enter_error > traced_ray.tolerance;
-    search.segment_from = is_touching ? min(search.segment_from, segment.enter) : search.segment_from;
+    // An earlier stretch, from which the ray has been out of the element since.
+    const bool is_apart = is_touching && segment.enter > search.segment_to + traced_ray.tolerance;
+    core_projection_pass(is_apart, traced_ray, search);
+    search.segment_from = is_apart ? segment.enter : is_touching ? min(search.segment_from, segment.enter) : search.segment_from;
     search.segment_to = is_touching ? segment.enter + segment.enter_error : search.segment_to;
 }
 
@@ -69,10 +79,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     const elvis_real enter = search.segment.enter - search.segment.enter_error - traced_ray.tolerance;
     const bool is_over = ending != CORE_SEGMENT_OPEN, is_touched = search.segment_from < CORE_FAR;
     const bool is_joined = is_found && is_touched && enter <= search.segment_to + traced_ray.tolerance;
-    // Shorter ones are near the ends of what the neighbours have.
-    const bool is_long = is_touched && search.segment_to - search.segment_from > CORE_LONGEST_TOUCH * traced_ray.tolerance;
-    const bool is_passed = is_over && is_long && !is_joined && CORE_PLAIN == 0;
-    search.undecided_t = is_passed ? min(search.undecided_t, search.segment_from) : search.undecided_t;
+    core_projection_pass(is_over && !is_joined, traced_ray, search);
     search.segment_from = is_over ? max(is_joined ? search.segment_from : enter, ray.least_t) : search.segment_from;
     search.segment_to = is_over ? search.segment.leave + search.segment.leave_error + traced_ray.tolerance : search.segment_to;
     search.interval.level = search.interval.index = 0u;

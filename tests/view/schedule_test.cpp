@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace elvis::view;
 
 namespace {
@@ -276,7 +278,10 @@ TEST_CASE("where all pixels are quick, a movement does not cancel its own pictur
         schedule.touch(now);
         const auto step = schedule.next(now);
         REQUIRE(step);
+        const auto before = std::ranges::find(FrameSchedule::divisors, schedule.moving_divisor());
         schedule.drawn(*step, true, 1);
+        // One size at a time.
+        CHECK(before - std::ranges::find(FrameSchedule::divisors, schedule.moving_divisor()) <= 1);
         now += std::chrono::milliseconds(16);
     }
     REQUIRE(schedule.moving_divisor() == 1);

@@ -52,6 +52,9 @@ std::string seed_surface_of(const StreamlinesArguments& arguments) {
         throw UsageError(arguments.is_unsteady ? "elvis pathlines" : "elvis streamlines",
                          "takes one of --line, --seeds, --cut-plane and --boundary");
     }
+    if (arguments.spacing > 0 && arguments.cut_plane.empty() && arguments.boundary.empty()) {
+        throw UsageError("--spacing", "goes with --cut-plane and --boundary");
+    }
     if (!arguments.cut_plane.empty()) {
         return nlohmann::json{{"type", "plane"}, {"plane", numbers("--cut-plane", arguments.cut_plane, 4, 4)}}.dump();
     }

@@ -54,10 +54,8 @@ bool edit_elements(Ui& ui, Json& surface);
 bool edit_wireframe(Ui& ui, Json& frame);
 /** Streamlines and pathlines. */
 bool edit_streamlines(Ui& ui, Json& lines);
+/** Where they begin. */
 bool edit_seeds(Ui& ui, Json& lines);
-/** A length that may be left to the program. */
-bool edit_optional(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double start, double extent,
-                   const char* help);
 bool edit_arrows(Ui& ui, Json& arrows);
 bool edit_light(Ui& ui, Json& light);
 bool edit_warp(Ui& ui, Json& scene);

@@ -107,23 +107,9 @@ bool edit_seeds(Ui& ui, Json& lines) {
     }
     const bool is_changed = text(ui, "streamlines/on", "On", lines, "on",
                                  "Name of the surface on which lines begin; in the volume if left empty", "the volume");
-    return edit_optional(ui, "streamlines/spacing", "Spacing", lines, "spacing", 0.1 * extent, extent / 20,
-                         "Distance between seeds; else a twentieth of the volume's diagonal") ||
+    return optional_length(ui, "streamlines/spacing", "Spacing", lines, "spacing", 0.1 * extent, extent / 20,
+                           "Distance between seeds; else a twentieth of the volume's diagonal") ||
            is_changed;
-}
-
-/** A length that may be left to the program. */
-bool edit_optional(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double start, double extent,
-                   const char* help) {
-    ImGui::PushID(name.c_str());
-    bool is_changed = optional_part(ui, name, label, part, key, start, help);
-    if (part.contains(key)) {
-        ImGui::SameLine();
-        ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
-        is_changed = positive_number(ui, name + "/value", "##value", part, key, extent, help) || is_changed;
-    }
-    ImGui::PopID();
-    return is_changed;
 }
 
 } // namespace elvis::view

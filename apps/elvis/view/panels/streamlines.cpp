@@ -53,18 +53,18 @@ bool edit_streamlines(Ui& ui, Json& lines) {
         }
         is_changed = true;
     }
-    is_changed = edit_optional(ui, "streamlines/ribbons", "Ribbons", lines, "ribbon_width", 0.02 * diagonal, diagonal / 20,
-                               "Ribbons of this width, which turn with the flow; else tubes") ||
+    is_changed = optional_length(ui, "streamlines/ribbons", "Ribbons", lines, "ribbon_width", 0.02 * diagonal, diagonal / 20,
+                                 "Ribbons of this width, which turn with the flow; else tubes") ||
                  is_changed;
     if (lines.contains("ribbon_width")) {
         lines.erase("radius");
     } else {
-        is_changed = edit_optional(ui, "streamlines/radius", "Radius", lines, "radius", 0.004 * diagonal, diagonal / 20,
-                                   "Of the tubes; else a small part of the volume's diagonal") ||
+        is_changed = optional_length(ui, "streamlines/radius", "Radius", lines, "radius", 0.004 * diagonal, diagonal / 20,
+                                     "Of the tubes; else a small part of the volume's diagonal") ||
                      is_changed;
     }
-    return edit_optional(ui, "streamlines/length", "Length", lines, "length", diagonal, diagonal,
-                         "Of each line, in each direction; else ten times the volume's diagonal") ||
+    return optional_length(ui, "streamlines/length", "Length", lines, "length", diagonal, diagonal,
+                           "Of each line, in each direction; else ten times the volume's diagonal") ||
            is_changed;
 }
 
@@ -75,11 +75,11 @@ bool edit_arrows(Ui& ui, Json& arrows) {
     is_changed = text(ui, "arrows/on", "On", arrows, "on",
                       "Name of the surface on which they stand; in the volume if left empty", "the volume") ||
                  is_changed;
-    is_changed = edit_optional(ui, "arrows/spacing", "Spacing", arrows, "spacing", 0.05 * diagonal, diagonal / 20,
-                               "Distance between arrows; else a twentieth of the volume's diagonal") ||
+    is_changed = optional_length(ui, "arrows/spacing", "Spacing", arrows, "spacing", 0.05 * diagonal, diagonal / 20,
+                                 "Distance between arrows; else a twentieth of the volume's diagonal") ||
                  is_changed;
-    return edit_optional(ui, "arrows/scale", "Scale", arrows, "scale", 1, 1,
-                         "Length of a vector of length 1; else the longest arrow is as long as the spacing") ||
+    return optional_length(ui, "arrows/scale", "Scale", arrows, "scale", 1, 1,
+                           "Length of a vector of length 1; else the longest arrow is as long as the spacing") ||
            is_changed;
 }
 

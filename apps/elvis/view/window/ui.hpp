@@ -131,5 +131,8 @@ bool field_choice(Ui& ui, const std::string& name, const char* label, Json& part
 /** What may be left out: a mark by which it begins as `start`. Returns whether it came or went. */
 bool optional_part(Ui& ui, const std::string& name, const char* label, Json& whole, const char* key, const Json& start,
                    const char* help);
+/** A length that may be left to the program. */
+bool optional_length(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double start,
+                     double extent, const char* help);
 
 } // namespace elvis::view

@@ -121,4 +121,17 @@ bool optional_part(Ui& ui, const std::string& name, const char* label, Json& who
     return true;
 }
 
+bool optional_length(Ui& ui, const std::string& name, const char* label, Json& part, const char* key, double start,
+                     double extent, const char* help) {
+    ImGui::PushID(name.c_str());
+    bool is_changed = optional_part(ui, name, label, part, key, start, help);
+    if (part.contains(key)) {
+        ImGui::SameLine();
+        ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
+        is_changed = positive_number(ui, name + "/value", "##value", part, key, extent, help) || is_changed;
+    }
+    ImGui::PopID();
+    return is_changed;
+}
+
 } // namespace elvis::view
