@@ -13,6 +13,9 @@ namespace {
 constexpr int max_steps = 40;
 // After a step this short the next one, by quadratic convergence, would be below rounding.
 constexpr double converged_step = 1e-10;
+// And after a step this short where it was so much shorter than the one before that the next one would be as short as that.
+constexpr double short_step = 1e-7;
+constexpr double negligible_step = 1e-17;
 // Points per direction of the lattice that starts are chosen from, and how many of them are used.
 constexpr int lattice_size = 5;
 constexpr std::size_t n_starts = 6;
@@ -41,6 +44,7 @@ struct Search {
     double excess = 0;
     // The next point to be evaluated, in the shape, and the prediction that it came from.
     Vector3 point{}, prediction{};
+    double last_change = std::numeric_limits<double>::infinity();
     int n_outside = 0;
     bool is_over = false;
     // Where the mapping was evaluated last, and the inverse of its Jacobian there.
@@ -81,13 +85,15 @@ void advance(elvis_shape shape, const Vector3& target, const double* position, c
                                     (std::abs(inverse[3 * i] * target[0]) + std::abs(inverse[3 * i + 1] * target[1]) +
                                      std::abs(inverse[3 * i + 2] * target[2])));
     const double change = largest(minus(next, search.prediction));
+    const double next_change = change * change * change / (search.last_change * search.last_change);
+    search.last_change = change;
     const double excess = reference_excess(shape, next);
     search.n_outside = excess > 1e-3 ? search.n_outside + 1 : 0;
     const double far = 1e3; // only the direction of such a prediction means anything
     search.prediction = {std::clamp(next[0], -far, far), std::clamp(next[1], -far, far), std::clamp(next[2], -far, far)};
     const Vector3 inside = project_into_shape(shape, search.prediction);
     search.point = is_damped && excess > damped_excess ? midpoint(search.point, inside) : inside;
-    if (change <= std::max(converged_step, floor)) {
+    if (change <= std::max(converged_step, floor) || (change <= short_step && next_change <= negligible_step)) {
         // A prediction outside that stays: the linear model at the boundary is exact there only to second order, which
         // does not matter below the tolerance.
         const bool is_inside = excess <= inside_tolerance + 2 * floor;
@@ -119,9 +125,73 @@ Search search_from(elvis_shape shape, const MappingFunction& mapping, const Vect
     return search;
 }
 
-// From the centroid, all targets at once: a step evaluates the mapping at the points of all that are not over.
+// Where the searches of many targets in one element begin: where the linear model about a point of a lattice near to the target
+// has it. With few targets that is the centroid, which takes no evaluations.
+class Starts {
+public:
+    Starts(elvis_shape shape, const MappingFunction& mapping, std::size_t n_targets) : m_shape(shape) {
+        const auto size = static_cast<std::size_t>(std::cbrt(static_cast<double>(n_targets) / targets_a_point));
+        m_size = std::min(size, most_points);
+        if (m_size < 2)
+            return;
+        for (std::size_t k = 0; k < m_size; ++k)
+            for (std::size_t j = 0; j < m_size; ++j)
+                for (std::size_t i = 0; i < m_size; ++i) {
+                    const Vector3 xi = project_into_shape(shape, {coordinate(i), coordinate(j), coordinate(k)});
+                    m_points.insert(m_points.end(), xi.begin(), xi.end());
+                }
+        m_positions.resize(m_points.size());
+        m_inverses.resize(3 * m_points.size());
+        mapping(m_points, m_positions, m_inverses);
+        for (std::size_t point = 0; point < m_points.size() / 3; ++point) {
+            std::array<double, 9> matrix{};
+            std::copy_n(&m_inverses[9 * point], 9, matrix.begin());
+            std::ranges::copy(invert_matrix(matrix), &m_inverses[9 * point]);
+        }
+    }
+
+    Vector3 start(const Vector3& target) const {
+        Vector3 xi = reference_centroid(m_shape);
+        for (int step = 0; m_size >= 2 && step < n_steps; ++step) {
+            const std::size_t point = index(xi[0]) + m_size * (index(xi[1]) + m_size * index(xi[2]));
+            const double* const position = &m_positions[3 * point];
+            const double* const inverse = &m_inverses[9 * point];
+            const Vector3 way{target[0] - position[0], target[1] - position[1], target[2] - position[2]};
+            const Vector3 next = plus(Vector3{m_points[3 * point], m_points[3 * point + 1], m_points[3 * point + 2]},
+                                      {dot(inverse, way), dot(inverse + 3, way), dot(inverse + 6, way)});
+            if (!std::isfinite(largest(next)))
+                break;
+            xi = project_into_shape(m_shape, next);
+        }
+        return xi;
+    }
+
+private:
+    // So many targets pay for the evaluation at one point.
+    static constexpr double targets_a_point = 4;
+    static constexpr std::size_t most_points = 9;
+    static constexpr int n_steps = 3;
+
+    double coordinate(std::size_t index) const {
+        return 2.0 * static_cast<double>(index) / static_cast<double>(m_size - 1) - 1;
+    }
+    std::size_t index(double xi) const {
+        return static_cast<std::size_t>(std::lround((xi + 1) / 2 * static_cast<double>(m_size - 1)));
+    }
+
+    elvis_shape m_shape;
+    // Along each direction.
+    std::size_t m_size = 0;
+    std::vector<double> m_points, m_positions, m_inverses;
+};
+
+// All targets at once: a step evaluates the mapping at the points of all that are not over.
 std::vector<Search> search_together(elvis_shape shape, const MappingFunction& mapping, std::span<const Vector3> targets) {
-    std::vector<Search> searches(targets.size(), begin_search(shape, reference_centroid(shape)));
+    const Starts starts(shape, mapping, targets.size());
+    std::vector<Search> searches;
+    searches.reserve(targets.size());
+    for (const Vector3& target : targets)
+        searches.push_back(begin_search(shape, starts.start(target)));
     std::vector<std::size_t> active(targets.size());
     std::iota(active.begin(), active.end(), std::size_t{0});
     std::vector<double> points, positions, jacobians;
@@ -183,16 +253,20 @@ Vector3 triple(const std::vector<double>& numbers, std::size_t index) {
 
 // The search has settled outside, and the mapping is so near to its linear model that no other start can end elsewhere.
 bool is_surely_outside(const Search& search, Lattice& lattice) {
-    double most = 0;
-    for (std::size_t i = 0; i < lattice.points().size() / 3; ++i) {
-        const Vector3 way = minus(triple(lattice.points(), i), search.last_point);
-        const Vector3 change = minus(triple(lattice.positions(), i), search.last_position);
+    if (search.outcome != Inversion::Outcome::outside)
+        return false;
+    const double *const points = lattice.points().data(), *const positions = lattice.positions().data();
+    bool is_near = true;
+    for (std::size_t i = 0; i < lattice.points().size(); i += 3) {
+        const Vector3 way = minus(Vector3{points[i], points[i + 1], points[i + 2]}, search.last_point);
+        const Vector3 change = minus(Vector3{positions[i], positions[i + 1], positions[i + 2]}, search.last_position);
         const Vector3 predicted{dot(&search.inverse[0], change), dot(&search.inverse[3], change),
                                 dot(&search.inverse[6], change)};
-        const double departure = length(minus(predicted, way)), distance = length(way);
-        most = distance > 1e-6 ? std::max(most, departure / distance) : most;
+        const Vector3 departure = minus(predicted, way);
+        const double distance2 = dot(&way[0], way);
+        is_near &= distance2 <= 1e-12 || dot(&departure[0], departure) < largest_departure * largest_departure * distance2;
     }
-    return search.outcome == Inversion::Outcome::outside && most < largest_departure;
+    return is_near;
 }
 
 // Of the lattice, those whose images come closest to the target first.

@@ -6,6 +6,7 @@
  *   contravariant   u = J uhat / det J     du/dxi_k = (K uhat + J duhat/dxi_k) / det J - u tr(J^-1 K)
  * In two dimensions J is that of the first two coordinates; its third column is (0, 0, 1) and uhat's third component 0.
  */
+#include "../basis/evaluate.hpp"
 #include "volume.hpp"
 
 #include <Eigen/Dense>
@@ -22,57 +23,26 @@ using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Vector3 = Eigen::Vector3d;
 using native::Point;
 
-/** Modes of a space at one point at a time. */
-class Modes {
-public:
-    explicit Modes(const native::Space& space)
-        : m_space(space), m_values(native::n_modes(space)), m_gradients(3 * m_values.size()) {}
-
-    void evaluate(const Point& xi) { native::evaluate_modes(m_space, xi, m_values, m_gradients); }
-
-    double value(std::span<const double> coefficients) const {
-        double sum = 0;
-        for (std::size_t i = 0; i < m_values.size(); ++i)
-            sum += coefficients[i] * m_values[i];
-        return sum;
-    }
-    double derivative(std::span<const double> coefficients, std::size_t direction) const {
-        double sum = 0;
-        for (std::size_t i = 0; i < m_values.size(); ++i)
-            sum += coefficients[i] * m_gradients[3 * i + direction];
-        return sum;
-    }
-    std::size_t size() const { return m_values.size(); }
-
-private:
-    native::Space m_space;
-    std::vector<double> m_values, m_gradients;
-};
-
-/** The two or three components' coefficients and the modes they belong to. A third that is missing is 0. */
+/** Two or three functions, at one point at a time. A third that is missing is 0. */
 class VectorFunction {
 public:
     VectorFunction(const native::Space& space, std::span<const double> coefficients)
-        : m_modes(space), m_coefficients(coefficients), m_n_components(coefficients.size() / m_modes.size()) {}
+        : m_space(space), m_coefficients(coefficients), m_n_components(coefficients.size() / native::n_modes(space)) {}
 
-    void move_to(const Point& xi) { m_modes.evaluate(xi); }
-    Vector3 value() const {
-        return {m_modes.value(part(0)), m_modes.value(part(1)), m_n_components == 3 ? m_modes.value(part(2)) : 0};
+    void move_to(const Point& xi) {
+        native::evaluate_together(m_space, m_coefficients, xi, std::span(m_value.data(), m_n_components),
+                                  std::span(m_derivatives.data(), 3 * m_n_components));
     }
+    const Vector3& value() const { return m_value; }
     /** Entry (i, j) = derivative of component i in direction j. */
-    Matrix3 derivatives() const {
-        Matrix3 result = Matrix3::Zero();
-        for (std::size_t i = 0; i < m_n_components; ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = m_modes.derivative(part(i), j);
-        return result;
-    }
+    const Matrix3& derivatives() const { return m_derivatives; }
 
 private:
-    std::span<const double> part(std::size_t i) const { return m_coefficients.subspan(i * m_modes.size(), m_modes.size()); }
-    Modes m_modes;
+    native::Space m_space;
     std::span<const double> m_coefficients;
     std::size_t m_n_components;
+    Vector3 m_value = Vector3::Zero();
+    Matrix3 m_derivatives = Matrix3::Zero();
 };
 
 /**
@@ -151,18 +121,13 @@ void Volume::evaluate_field(std::size_t field, std::size_t time_step, std::uint6
     const native::Space& space = field_space(where.element_class, field);
     const native::Transform transform = description().fields[field].transform;
     if (transform == native::Transform::none) {
-        Modes modes(space);
         const std::size_t n_components = description().fields[field].n_components;
+        std::vector<double> unwanted(values.empty() ? n_components : 0);
         for (std::size_t i = 0; i < xi.size() / 3; ++i) {
-            modes.evaluate(point(xi, i));
-            for (std::size_t component = 0; component < n_components; ++component) {
-                const auto numbers = coefficients.numbers.subspan(component * modes.size(), modes.size());
-                if (!values.empty())
-                    values[i * n_components + component] = modes.value(numbers);
-                if (!gradients.empty())
-                    for (std::size_t j = 0; j < 3; ++j)
-                        gradients[(i * n_components + component) * 3 + j] = modes.derivative(numbers, j);
-            }
+            native::evaluate_together(space, coefficients.numbers, point(xi, i),
+                                      values.empty() ? std::span(unwanted) : values.subspan(i * n_components, n_components),
+                                      gradients.empty() ? gradients
+                                                        : gradients.subspan(3 * i * n_components, 3 * n_components));
         }
         return;
     }
