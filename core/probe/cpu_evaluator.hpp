@@ -18,6 +18,7 @@ class CpuEvaluator : public PointEvaluator {
 public:
     explicit CpuEvaluator(const RuntimeVolume& volume);
 
+    bool is_for_any_thread() const override { return true; }
     std::vector<Inversion> invert(std::span<const InversionQuery> queries) override;
     std::vector<FieldSample> evaluate(std::uint32_t field, std::uint32_t time_step, std::span<const ReferencePoint> points,
                                       bool with_gradients) override;

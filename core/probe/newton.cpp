@@ -28,6 +28,9 @@ constexpr double largest_departure = 0.75;
 
 // Predictions this far outside are approached by half steps, where steps are damped.
 constexpr double damped_excess = 0.125;
+// Damped steps end slowly. After so many predictions outside, one that is so much farther out than it moves will not come in.
+constexpr int settled_outside = 4;
+constexpr double settled_share = 0.125;
 
 double largest(const Vector3& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
 
@@ -93,7 +96,9 @@ void advance(elvis_shape shape, const Vector3& target, const double* position, c
     search.prediction = {std::clamp(next[0], -far, far), std::clamp(next[1], -far, far), std::clamp(next[2], -far, far)};
     const Vector3 inside = project_into_shape(shape, search.prediction);
     search.point = is_damped && excess > damped_excess ? midpoint(search.point, inside) : inside;
-    if (change <= std::max(converged_step, floor) || (change <= short_step && next_change <= negligible_step)) {
+    const bool stays_outside = is_damped && search.n_outside >= settled_outside && change <= settled_share * excess;
+    if (stays_outside || change <= std::max(converged_step, floor) ||
+        (change <= short_step && next_change <= negligible_step)) {
         // A prediction outside that stays: the linear model at the boundary is exact there only to second order, which
         // does not matter below the tolerance.
         const bool is_inside = excess <= inside_tolerance + 2 * floor;
@@ -272,15 +277,16 @@ bool is_surely_outside(const Search& search, Lattice& lattice) {
 // Of the lattice, those whose images come closest to the target first.
 std::vector<Vector3> nearest_starts(Lattice& lattice, const Vector3& target) {
     const std::vector<double>&points = lattice.points(), &positions = lattice.positions();
-    std::vector<std::size_t> order(points.size() / 3);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto distance = [&](std::size_t i) {
-        return std::hypot(positions[3 * i] - target[0], positions[3 * i + 1] - target[1], positions[3 * i + 2] - target[2]);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-    order.resize(std::min(order.size(), n_starts));
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < points.size() / 3; ++i) {
+        const Vector3 way = minus(triple(positions, i), target);
+        order.emplace_back(dot(&way[0], way), i);
+    }
+    const std::size_t n = std::min(order.size(), n_starts);
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n), order.end());
+    order.resize(n);
     std::vector<Vector3> starts;
-    for (const std::size_t i : order)
+    for (const auto& [distance, i] : order)
         starts.push_back(triple(points, i));
     return starts;
 }

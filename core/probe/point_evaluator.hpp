@@ -62,6 +62,9 @@ public:
     PointEvaluator(const PointEvaluator&) = delete;
     PointEvaluator& operator=(const PointEvaluator&) = delete;
 
+    /** Whether several threads may ask at a time. */
+    virtual bool is_for_any_thread() const { return false; }
+
     /** One answer a query, in the same order. */
     virtual std::vector<Inversion> invert(std::span<const InversionQuery> queries) = 0;
 

@@ -1,4 +1,5 @@
 #include <core/base/error.hpp>
+#include <core/base/in_parts.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/cpu_evaluator.hpp>
 #include <core/probe/device_evaluator.hpp>
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 
 namespace elvis {
 namespace {
@@ -31,6 +33,9 @@ std::unique_ptr<PointEvaluator> make_evaluator(const RuntimeVolume& volume, cons
     return std::make_unique<CpuEvaluator>(volume);
 }
 
+// Points that a thread takes at once: so many that those in one element are together.
+constexpr std::uint64_t least_part = 4096;
+
 // An element that contains a point.
 struct Owner {
     std::int64_t number = 0;
@@ -40,7 +45,8 @@ struct Owner {
 } // namespace
 
 Prober::Prober(const RuntimeVolume& volume, const ProbeOptions& options)
-    : m_volume(&volume), m_evaluator(make_evaluator(volume, options)), m_finder(volume) {
+    : m_volume(&volume), m_evaluator(make_evaluator(volume, options)), m_finder(volume),
+      m_background(std::make_unique<Background>(std::max(1u, std::thread::hardware_concurrency()))) {
     m_numbers.resize(volume.n_elements());
     volume.element_numbers(0, volume.n_elements(), m_numbers);
 }
@@ -50,6 +56,18 @@ std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::
         throw UsageError(m_volume->path(), "there is no time step " + std::to_string(time_step) + "; the volume has " +
                                                std::to_string(m_volume->times().size()));
     std::vector<ProbedPoint> points(positions.size());
+    const auto has_facts = [](const auto& expression) { return expression->needs_element_facts(); };
+    const bool is_divided = m_evaluator->is_for_any_thread() && std::ranges::none_of(wishes.expressions, has_facts);
+    const std::uint64_t n = positions.size(), n_threads = std::max(1u, std::thread::hardware_concurrency()),
+                        part = is_divided ? std::max(least_part, n / (2 * n_threads) + 1) : n + 1;
+    in_parts(*m_background, n, part, [&](std::uint64_t first, std::uint64_t count) {
+        probe_part(positions.subspan(first, count), time_step, wishes, std::span(points).subspan(first, count));
+    });
+    return points;
+}
+
+void Prober::probe_part(std::span<const Vector3> positions, std::uint32_t time_step, const ProbeWishes& wishes,
+                        std::span<ProbedPoint> points) const {
     std::vector<InversionQuery> queries;
     std::vector<std::size_t> query_point;
     std::vector<std::uint32_t> elements;
@@ -101,7 +119,6 @@ std::vector<ProbedPoint> Prober::probe(std::span<const Vector3> positions, std::
         for (std::size_t i = 0; i < samples.size(); ++i)
             points[found_point[i]].expressions.push_back(samples[i]);
     }
-    return points;
 }
 
 } // namespace elvis

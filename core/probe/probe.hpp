@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/background.hpp>
 #include <core/base/vector3.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/probe/element_finder.hpp>
@@ -66,9 +67,13 @@ public:
     std::vector<ProbedPoint> probe(std::span<const Vector3> positions, std::uint32_t time_step, const ProbeWishes& wishes = {});
 
 private:
+    void probe_part(std::span<const Vector3> positions, std::uint32_t time_step, const ProbeWishes& wishes,
+                    std::span<ProbedPoint> points) const;
+
     const RuntimeVolume* m_volume;
     std::unique_ptr<PointEvaluator> m_evaluator;
     ElementFinder m_finder;
+    std::unique_ptr<Background> m_background;
     /** Of each element. */
     std::vector<std::int64_t> m_numbers;
 };

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <iostream>
 #include <random>
+#include <utility>
 
 namespace elvis::oracle {
 namespace {
@@ -84,6 +85,40 @@ TEST_CASE("the inverse mapping finds every point of strongly curved elements") {
         }
         CAPTURE(native::name(shape), largest_error);
         CHECK(largest_error < 1e-13);
+    }
+}
+
+TEST_CASE("many points of a strongly curved element are where each of them is alone, in fewer evaluations") {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> uniform(-1.2, 1.2);
+    for (const Shape shape : {Shape::hexahedron, Shape::prism, Shape::pyramid, Shape::tetrahedron}) {
+        const Model model = one_element(shape, 6, tube);
+        const MappingFunction mapping = mapping_of(model.volume);
+        std::size_t n_evaluations = 0;
+        const MappingFunction counted = [&](std::span<const double> xi, std::span<double> positions,
+                                            std::span<double> jacobians) {
+            n_evaluations += xi.size() / 3;
+            mapping(xi, positions, jacobians);
+        };
+        std::vector<Vector3> targets;
+        for (int i = 0; i < 1000; ++i) {
+            const Vector x = tube({uniform(random), uniform(random), uniform(random)});
+            targets.push_back({x[0], x[1], x[2]});
+        }
+        const std::vector<Inversion> together = invert_mapping(static_cast<elvis_shape>(shape), counted, targets);
+        const std::size_t n_together = std::exchange(n_evaluations, 0);
+        double largest_difference = 0;
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const Inversion alone = invert_mapping(static_cast<elvis_shape>(shape), counted, targets[i]);
+            CAPTURE(native::name(shape), targets[i]);
+            REQUIRE(alone.outcome == together[i].outcome);
+            for (std::size_t d = 0; d < 3 && alone.outcome == Inversion::Outcome::inside; ++d)
+                largest_difference = std::max(largest_difference, std::abs(alone.xi[d] - together[i].xi[d]));
+        }
+        CHECK(largest_difference < 1e-13);
+        CHECK(2 * n_together < n_evaluations);
+        std::cout << native::name(shape) << ": " << n_together << " evaluations, alone " << n_evaluations
+                  << ", differences at most " << largest_difference << '\n';
     }
 }
 

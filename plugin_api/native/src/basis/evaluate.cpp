@@ -15,7 +15,7 @@ struct Product {
     double along_outer, along_mid, along_inner;
 };
 
-Product product(const ModeTables& tables, const Run& run, bool outer_bends_mid) {
+inline Product product(const ModeTables& tables, const Run& run, bool outer_bends_mid) {
     const std::size_t i = outer_slot(run.outer);
     const std::size_t j = outer_slot(run.mid);
     const OuterTable<1>& a = tables.outer;
@@ -30,12 +30,18 @@ struct InnerSums {
     double value = 0, reduced = 0, slope = 0;
 };
 
-InnerSums inner_sums(const InnerTable& table, std::size_t slot, const double* coefficients, std::size_t count) {
+InnerSums inner_sums(const InnerTable& table, bool has_reduced, std::size_t slot, const double* coefficients,
+                     std::size_t count) {
     InnerSums sums;
     for (std::size_t i = 0; i < count; ++i) {
         sums.value += coefficients[i] * table.value[slot + i];
-        sums.reduced += coefficients[i] * table.reduced[slot + i];
         sums.slope += coefficients[i] * table.slope[slot + i];
+    }
+    sums.reduced = sums.value;
+    if (has_reduced) {
+        sums.reduced = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            sums.reduced += coefficients[i] * table.reduced[slot + i];
     }
     return sums;
 }
@@ -55,12 +61,12 @@ void evaluate_together(const Space& space, std::span<const double> coefficients,
     ModeTables tables;
     fill(tables, space, xi);
     const Directions axis = directions(space.shape);
-    const bool outer_bends_mid = space.shape == Shape::tetrahedron;
+    const bool outer_bends_mid = space.shape == Shape::tetrahedron, has_reduced = space.shape == Shape::pyramid;
     for_each_run(space, [&](const Run& run) {
         const Product factor = product(tables, run, outer_bends_mid);
         const std::size_t slot = inner_slot(space, run.inner);
         for (std::size_t function = 0; function < values.size(); ++function) {
-            const InnerSums sums = inner_sums(tables.inner, slot, coefficients.data() + function * n + run.first,
+            const InnerSums sums = inner_sums(tables.inner, has_reduced, slot, coefficients.data() + function * n + run.first,
                                               static_cast<std::size_t>(run.count));
             values[function] += factor.value * sums.value;
             if (!gradients.empty()) {

@@ -62,7 +62,7 @@ inline Kind uncollapsed_kind(Basis basis) {
 }
 
 /** Whether the space is the constants. */
-inline bool is_constant(const Space& space) { return space.order == std::array<std::uint32_t, 3>{}; }
+inline bool is_constant(const Space& space) { return (space.order[0] | space.order[1] | space.order[2]) == 0; }
 
 namespace detail {
 
