@@ -1,7 +1,7 @@
 /*
  * What the compiler of a GPU (navi21) makes of the kernels of four pictures gets no worse than kernel_limits.csv allows. No GPU
- * is needed: Mesa's RADV compiles for hardware that is not there. Hexahedra alone are tested, which takes half a minute for
- * each precision; the file has all shapes.
+ * is needed: Mesa's RADV compiles for hardware that is not there. Hexahedra alone are tested, and double precision, which takes
+ * minutes, only where all is; the file has all shapes.
  */
 #include <core/base/error.hpp>
 #include <core/bench/kernel_limits.hpp>
@@ -85,7 +85,7 @@ TEST_CASE("No kernel of hexahedra needs more of a GPU than its limit, in single 
     check_limits(Precision::float32);
 }
 
-TEST_CASE("No kernel of hexahedra needs more of a GPU than its limit, in double precision") {
+TEST_CASE("No kernel of hexahedra needs more of a GPU than its limit, in double precision", "[.long]") {
     check_limits(Precision::float64);
 }
 
