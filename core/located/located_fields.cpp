@@ -59,21 +59,27 @@ std::uint32_t LocatedFields::step_of(std::uint32_t time_step) const {
 }
 
 /** Elements are tried from the most likely on: where a point is not, Newton's method takes long. */
-std::optional<ReferencePoint> LocatedFields::place_of(const Vector3& position) const {
+std::vector<ReferencePoint> LocatedFields::places_of(const Vector3& position, double reach) const {
+    std::vector<ReferencePoint> places;
     if (!std::isfinite(length(position))) {
-        return std::nullopt;
+        return places;
     }
     std::vector<std::uint32_t> elements;
-    m_finder.append_near(position, elements);
+    m_finder.append_near(position, elements, reach * m_finder.diagonal());
     std::ranges::sort(elements, {},
                       [&](std::uint32_t element) { return std::pair(length(minus(m_middles[element], position)), element); });
     for (const std::uint32_t element : elements) {
-        const Inversion inversion = SolidElement(m_volume, element).invert(std::span(&position, 1)).front();
-        if (inversion.outcome == Inversion::Outcome::inside) {
-            return ReferencePoint{element, inversion.xi};
+        const SolidElement solid(m_volume, element);
+        const Inversion inversion = solid.invert(std::span(&position, 1)).front();
+        const double excess = solid.excess(inversion.xi);
+        if (inversion.outcome == Inversion::Outcome::inside || excess <= reach) {
+            places.push_back({element, inversion.xi});
+        }
+        if (inversion.outcome == Inversion::Outcome::inside && (reach == 0 || excess < -reach)) {
+            return {places.back()};
         }
     }
-    return std::nullopt;
+    return places;
 }
 
 void LocatedFields::evaluate(std::uint32_t field, std::uint32_t time_step, std::span<const double> positions,
@@ -85,19 +91,37 @@ void LocatedFields::evaluate(std::uint32_t field, std::uint32_t time_step, std::
     for (std::size_t point = 0; point < positions.size() / 3; ++point) {
         const Vector3 position{positions[3 * point], positions[3 * point + 1], positions[3 * point + 2]};
         const std::span<double> value = some(values, point, n_components), slopes = some(gradients, point, 3 * n_components);
-        const std::optional<ReferencePoint> at = place_of(position);
-        if (!at) {
+        const std::vector<ReferencePoint> places = places_of(position, 0);
+        if (places.empty()) {
             std::ranges::fill(value, std::numeric_limits<double>::quiet_NaN());
             std::ranges::fill(slopes, std::numeric_limits<double>::quiet_NaN());
             continue;
         }
-        m_volume.evaluate_field(field, step_of(time_step), at->element, at->xi, value, slopes);
+        const ReferencePoint& at = places.front();
+        m_volume.evaluate_field(field, step_of(time_step), at.element, at.xi, value, slopes);
         if (!slopes.empty()) {
             std::array<double, 9> jacobian{};
-            m_volume.evaluate_mapping(at->element, at->xi, {}, jacobian);
+            m_volume.evaluate_mapping(at.element, at.xi, {}, jacobian);
             to_world_gradients(jacobian, slopes);
         }
     }
+}
+
+double LocatedFields::jump(std::uint32_t field, std::uint32_t time_step, const std::array<double, 3>& position,
+                           double reach) const {
+    const std::vector<ReferencePoint> places = places_of(position, reach);
+    const std::size_t n_components = m_fields[field].n_components;
+    std::vector<double> first(n_components), values(n_components);
+    double apart = 0, largest = 0;
+    for (std::size_t place = 0; places.size() > 1 && place < places.size(); ++place) {
+        m_volume.evaluate_field(field, step_of(time_step), places[place].element, places[place].xi, values, {});
+        first = place == 0 ? values : first;
+        for (std::size_t component = 0; component < n_components; ++component) {
+            apart = std::max(apart, std::abs(values[component] - first[component]));
+            largest = std::max(largest, std::abs(values[component]));
+        }
+    }
+    return largest > 0 ? apart / largest : 0;
 }
 
 } // namespace elvis

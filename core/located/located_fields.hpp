@@ -33,10 +33,13 @@ public:
     /** Where several elements hold a position, one of them counts: that whose box has its middle nearest. */
     void evaluate(std::uint32_t field, std::uint32_t time_step, std::span<const double> positions, std::span<double> values,
                   std::span<double> gradients) const override;
+    double jump(std::uint32_t field, std::uint32_t time_step, const std::array<double, 3>& position,
+                double reach) const override;
 
 private:
     std::uint32_t step_of(std::uint32_t time_step) const;
-    std::optional<ReferencePoint> place_of(const Vector3& position) const;
+    /** In elements that hold the position within `reach`, the most likely one first; in that alone if it lies deeper in it. */
+    std::vector<ReferencePoint> places_of(const Vector3& position, double reach) const;
 
     RuntimeVolume m_volume;
     ElementFinder m_finder;

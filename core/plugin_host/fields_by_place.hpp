@@ -6,6 +6,7 @@
 
 #include <core/plugin_host/field_info.hpp>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,6 +26,12 @@ public:
      */
     virtual void evaluate(std::uint32_t field, std::uint32_t time_step, std::span<const double> positions,
                           std::span<double> values, std::span<double> gradients) const = 0;
+    /**
+     * How far the values of elements that hold a position are apart, relative to the largest of them: 0 where one alone does.
+     * Elements count that hold it within `reach` of their reference coordinates.
+     */
+    virtual double jump(std::uint32_t field, std::uint32_t time_step, const std::array<double, 3>& position,
+                        double reach) const = 0;
 };
 
 } // namespace elvis

@@ -193,6 +193,9 @@ public:
      * that is asked about them throws an Error that says what they are good for. Needs has_evaluation().
      */
     void add_by_place(std::shared_ptr<const FieldsByPlace> others);
+    /** Of a field that is found by place, at a point of this volume (FieldsByPlace::jump). */
+    double jump_by_place(std::uint32_t field, std::uint32_t time_step, std::uint64_t element, const std::array<double, 3>& xi,
+                         double reach) const;
     /** Throws that Error for a field that is found by place. */
     void need_own(std::uint32_t field) const;
 

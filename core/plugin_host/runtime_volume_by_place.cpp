@@ -44,4 +44,12 @@ void RuntimeVolume::evaluate_by_place(std::uint32_t field, std::uint32_t time_st
     }
 }
 
+double RuntimeVolume::jump_by_place(std::uint32_t field, std::uint32_t time_step, std::uint64_t element,
+                                    const std::array<double, 3>& xi, double reach) const {
+    const auto& [others, index] = m_impl->by_place[field - m_impl->info.n_fields];
+    std::array<double, 3> position{};
+    evaluate_mapping(element, xi, position, {});
+    return others->jump(index, time_step, position, reach);
+}
+
 } // namespace elvis

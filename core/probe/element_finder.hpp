@@ -19,9 +19,9 @@ class ElementFinder {
 public:
     explicit ElementFinder(const RuntimeVolume& volume);
 
-    /** Appends the elements whose boxes come near the point, in no particular order. */
-    void append_near(const Vector3& position, std::vector<std::uint32_t>& elements) const {
-        m_hierarchy.find(position, m_tolerance, elements);
+    /** Appends the elements whose boxes come near the point, or within `reach` of it, in no particular order. */
+    void append_near(const Vector3& position, std::vector<std::uint32_t>& elements, double reach = 0) const {
+        m_hierarchy.find(position, m_tolerance + reach, elements);
     }
     /** Of the volume they were made of, on the CPU: the elements that hold the point, and where; ascending. */
     std::vector<ReferencePoint> holders(const RuntimeVolume& volume, const Vector3& position) const;

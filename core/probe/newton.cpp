@@ -43,7 +43,7 @@ double dot(const double* row, const Vector3& v) { return row[0] * v[0] + row[1] 
 // One start, on its way.
 struct Search {
     Inversion::Outcome outcome = Inversion::Outcome::failed;
-    Vector3 xi{};
+    Vector3 xi = nowhere;
     double excess = 0;
     // The next point to be evaluated, in the shape, and the prediction that it came from.
     Vector3 point{}, prediction{};
@@ -303,7 +303,7 @@ Inversion decided(elvis_shape shape, const MappingFunction& mapping, const Vecto
             return {next.outcome, next.xi};
         is_outside = is_outside || next.outcome == Inversion::Outcome::outside;
     }
-    return {is_outside ? Inversion::Outcome::outside : Inversion::Outcome::failed, {}};
+    return {is_outside ? Inversion::Outcome::outside : Inversion::Outcome::failed, nowhere};
 }
 
 } // namespace

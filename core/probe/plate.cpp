@@ -1,4 +1,5 @@
 #include <core/probe/plate.hpp>
+#include <core/probe/reference_shape.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -81,6 +82,8 @@ void SolidElement::evaluate_plate(std::span<const double> xi, std::span<double> 
         }
     }
 }
+
+double SolidElement::excess(const Vector3& own) const { return reference_excess(m_shape, own); }
 
 std::vector<Inversion> SolidElement::invert(std::span<const Vector3> targets) const {
     std::vector<Inversion> found = invert_mapping(m_solid_shape, mapping(), targets);

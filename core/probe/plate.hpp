@@ -27,6 +27,8 @@ public:
     Vector3 own(const Vector3& solid) const;
     /** The other way; into the middle of a plate. */
     Vector3 solid(const Vector3& own) const;
+    /** How far a point lies beyond the element's faces, in its own reference coordinates; less than 0 inside. */
+    double excess(const Vector3& own) const;
     /** By Newton's method, in the element's own reference coordinates: inside if the target lies in the element. */
     std::vector<Inversion> invert(std::span<const Vector3> targets) const;
 

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,6 +22,10 @@ struct InversionQuery {
     Vector3 position{};
 };
 
+/** Of a point that was not found. */
+inline constexpr Vector3 nowhere{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+                                 std::numeric_limits<double>::quiet_NaN()};
+
 struct Inversion {
     enum class Outcome {
         inside,  ///< in the closed element, but for rounding
@@ -28,8 +33,8 @@ struct Inversion {
         failed   ///< neither could be established
     };
     Outcome outcome = Outcome::failed;
-    /** Meaningful if inside. */
-    Vector3 xi{};
+    /** Outside where the linear model of a point of the element has it; NaN if that never settled. */
+    Vector3 xi = nowhere;
 };
 
 /** A point of an element. */

@@ -135,6 +135,36 @@ TEST_CASE("Where the other volume is not, there is no value, and pixels say so")
     CHECK_THROWS_WITH(both.integrate(wanted), Catch::Contains("outside of the volume"));
 }
 
+TEST_CASE("Where another value of a field that jumps in its own mesh would be as right, the pixel is undecided") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data one = opened(library, folder, "one.h5", box("hexahedron", "[3, 3, 3]", 3));
+    convert_to(
+        library, folder, "jumps.h5",
+        R"({"generator": 1, "mesh": "box", "shape": "hexahedron", "elements": [2, 2, 2], "box": [[-1, -1, -1], [1, 1, 1]],
+                   "order": 3, "fields": ["jump", {"field": "sphere", "name": "smooth", "continuity": "discontinuous"}]})");
+    const data jumps = library.open(folder.path("jumps.h5"));
+    const data both = one.join({{"a", &jumps}});
+    const auto share_undecided = [&](const char* plane, const char* field, const char* precision) {
+        const std::string surface = std::string(R"({"type": "plane", "plane": )") + plane + R"(, "field": ")" + field + R"("})";
+        const picture drawn = both.render(showing(library, surface, precision));
+        std::size_t n_undecided = 0;
+        for (const std::uint32_t flags : drawn.read<std::uint32_t>(ELVIS_CHANNEL_FLAGS)) {
+            n_undecided += (flags & 256) != 0 ? 1 : 0;
+        }
+        const Values found = values_of(drawn);
+        CHECK(found.n_hit > 600);
+        return static_cast<double>(n_undecided) / static_cast<double>(found.n_hit);
+    };
+    for (const char* const precision : {"float32", "float64"}) {
+        CAPTURE(precision);
+        // A plane along faces of the other mesh alone.
+        CHECK(share_undecided("[0, 0, 1, 0]", "p - a.jump", precision) > 0.99);
+        CHECK(share_undecided("[0, 0, 1, 0]", "p - a.smooth", precision) < 0.01);
+        CHECK(share_undecided("[0, 0.1, 1, 0.03]", "p - a.jump", precision) < 0.01);
+    }
+}
+
 TEST_CASE("What is not certain between points is refused") {
     const context library(own_plugins());
     const TemporaryFolder folder;

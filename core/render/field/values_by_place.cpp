@@ -1,11 +1,16 @@
 #include <core/render/field/values_by_place.hpp>
 
+#include <core/base/in_parts.hpp>
 #include <core/camera/camera_ray.hpp>
+#include <core/expression/expression.hpp>
 #include <core/render/field/chosen_values.hpp>
 #include <core/vulkan/real_array.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <thread>
+#include <type_traits>
 
 namespace elvis {
 
@@ -25,6 +30,12 @@ template <class Real> ReferencePoint point_of(const Place<Real>& place, const Ru
     const std::uint32_t element_class = (place.class_and_face & ~known_bits) >> face_bits;
     return {volume.classes()[element_class].first_element + place.element, {place.x, place.y, place.z}};
 }
+
+/** Of positions, in reference coordinates of the other volume's elements, and of values, relative to them. */
+template <class Real>
+constexpr ValuesByPlace::Rounding rounding_of =
+    std::is_same_v<Real, float> ? ValuesByPlace::Rounding{1e-6, 2e-5} : ValuesByPlace::Rounding{1e-10, 1e-11};
+constexpr std::uint64_t points_a_thread = 1024;
 
 /** Where the ray of a pixel meets a plane. */
 class PlanePoints {
@@ -47,6 +58,10 @@ private:
 
 } // namespace
 
+ValuesByPlace::ValuesByPlace(const Device& device, const RuntimeVolume& volume)
+    : m_device(device), m_volume(volume), m_finder(volume), m_evaluator(volume),
+      m_background(std::max(1u, std::thread::hardware_concurrency())) {}
+
 std::optional<ReferencePoint> ValuesByPlace::place_in(std::uint32_t number, const Vector3& position) const {
     std::optional<ReferencePoint> found;
     for (const ReferencePoint& holder : m_finder.holders(m_volume, position)) {
@@ -57,6 +72,20 @@ std::optional<ReferencePoint> ValuesByPlace::place_in(std::uint32_t number, cons
         }
     }
     return found;
+}
+
+void ValuesByPlace::mark_jumps(const FieldChoice& field, std::uint32_t time_step, const Rounding& rounding,
+                               std::span<const ReferencePoint> points, std::span<std::uint8_t> jumps) {
+    const std::vector<std::uint32_t> fields = field.expression ? field.expression->fields() : std::vector{field.field};
+    in_parts(m_background, points.size(), points_a_thread, [&](std::uint64_t first, std::uint64_t count) {
+        for (std::uint64_t i = first; i < first + count; ++i) {
+            jumps[i] = std::ranges::any_of(fields, [&](std::uint32_t index) {
+                return m_volume.fields()[index].is_by_place &&
+                       m_volume.jump_by_place(index, time_step, points[i].element, points[i].xi, rounding.reach) >
+                           rounding.value;
+            });
+        }
+    });
 }
 
 template <class Real>
@@ -87,7 +116,10 @@ void ValuesByPlace::draw(const Surface& surface, const FrameRequest& request, Re
     }
     m_device.check_task();
     const std::vector<double> values = chosen_values(m_evaluator, *surface.by_place, request.time_step, points);
+    std::vector<std::uint8_t> jumps(points.size());
+    mark_jumps(*surface.by_place, request.time_step, rounding_of<Real>, points, jumps);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
+        marks[pixels[i]].flags |= jumps[i] != 0 ? pixel_flag::undecided : 0;
         samples[pixels[i]].value = static_cast<Real>(values[i] - static_cast<double>(offset));
         marks[pixels[i]].flags |= std::isfinite(values[i]) ? 0 : pixel_flag::nan;
     }

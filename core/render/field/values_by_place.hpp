@@ -17,17 +17,25 @@ namespace elvis {
 class ValuesByPlace {
 public:
     /** Both must outlive it. The volume evaluates on the CPU. */
-    ValuesByPlace(const Device& device, const RuntimeVolume& volume)
-        : m_device(device), m_volume(volume), m_finder(volume), m_evaluator(volume) {}
+    ValuesByPlace(const Device& device, const RuntimeVolume& volume);
 
     /**
      * Of all pixels that show the surface: values less `offset`, into the samples of the layer. Those that are no number, as
-     * outside of the other volume, are flagged. The target has places, unless the surface is a plane.
+     * outside of the other volume, are flagged, and so are those where elements of the other volume meet whose values differ.
+     * The target has places, unless the surface is a plane.
      */
     void draw(const Surface& surface, const FrameRequest& request, double offset, Precision precision,
               const LayerTarget& target);
 
+    /** What is lost of positions and of values. */
+    struct Rounding {
+        double reach, value;
+    };
+
 private:
+    /** Where a field that is found by place has another value on the other side of a face of its mesh. */
+    void mark_jumps(const FieldChoice& field, std::uint32_t time_step, const Rounding& rounding,
+                    std::span<const ReferencePoint> points, std::span<std::uint8_t> jumps);
     template <class Real>
     void draw(const Surface& surface, const FrameRequest& request, Real offset, const LayerTarget& target);
     /** Of a point of a plane in the element of that number, or else in one that holds it; nothing outside. */
@@ -37,6 +45,7 @@ private:
     const RuntimeVolume& m_volume;
     ElementFinder m_finder;
     CpuEvaluator m_evaluator;
+    Background m_background;
 };
 
 } // namespace elvis
