@@ -92,7 +92,8 @@ std::vector<Inversion> SolidElement::invert(std::span<const Vector3> targets) co
     }
     for (Inversion& inversion : found) {
         if (inversion.outcome == Inversion::Outcome::inside && !(std::abs(inversion.xi[normal_axis()]) <= on_surface)) {
-            inversion.outcome = Inversion::Outcome::outside;
+            // Beside its face, but not on it.
+            inversion = {Inversion::Outcome::outside, nowhere};
         }
         inversion.xi = own(inversion.xi);
     }
