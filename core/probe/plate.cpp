@@ -91,9 +91,10 @@ std::vector<Inversion> SolidElement::invert(std::span<const Vector3> targets) co
         return found;
     }
     for (Inversion& inversion : found) {
-        if (inversion.outcome == Inversion::Outcome::inside && !(std::abs(inversion.xi[normal_axis()]) <= on_surface)) {
-            // Beside its face, but not on it.
-            inversion = {Inversion::Outcome::outside, nowhere};
+        if (!(std::abs(inversion.xi[normal_axis()]) <= on_surface)) {
+            // Beside its face, if anything.
+            const bool has_failed = inversion.outcome == Inversion::Outcome::failed;
+            inversion = {has_failed ? Inversion::Outcome::failed : Inversion::Outcome::outside, nowhere};
         }
         inversion.xi = own(inversion.xi);
     }
