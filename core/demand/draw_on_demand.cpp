@@ -5,6 +5,7 @@
 #include <core/base/peak_memory.hpp>
 #include <core/demand/box_blocks.hpp>
 #include <core/demand/demand_ranges.hpp>
+#include <core/demand/elements_in_blocks.hpp>
 #include <core/demand/needed_elements.hpp>
 #include <core/demand/selected_volume.hpp>
 #include <core/plugin_host/plugin.hpp>
@@ -16,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -47,6 +49,10 @@ void need_budgets_can_hold(const Scene& scene) {
     }
 }
 
+bool is_plane(const Surface& surface) { return std::holds_alternative<CutPlane>(surface.geometry); }
+bool is_boundary(const Surface& surface) { return std::holds_alternative<BoundaryFaces>(surface.geometry); }
+bool is_isosurface(const Surface& surface) { return std::holds_alternative<Isosurfaces>(surface.geometry); }
+
 /** What of a budget a need is beyond. */
 std::string beyond(const MemoryNeed& need, const MemoryBudget& budget) {
     const bool is_device = need.device > budget.device.value_or(UINT64_MAX);
@@ -62,8 +68,8 @@ MemoryBudget less(const MemoryBudget& budget, const MemoryNeed& taken) {
 }
 
 std::string surface_text(const Surface& surface, std::size_t index) {
-    return std::string(std::holds_alternative<CutPlane>(surface.geometry) ? "the cut plane" : "the boundary") + " (surface " +
-           std::to_string(index) + ")";
+    const char* const name = is_plane(surface) ? "the cut plane" : is_boundary(surface) ? "the boundary" : "the isosurface";
+    return std::string(name) + " (surface " + std::to_string(index) + ")";
 }
 
 /** Of all surfaces, or nothing for lack of memory; then what lacks it, in words. */
@@ -84,6 +90,8 @@ struct VolumeOnDemand::Impl {
     BoxBlocks blocks;
     DemandWork work{};
     DemandRanges ranges;
+    /** Of isosurfaces of the picture that is drawn, by their place among the surfaces: the same for all rows. */
+    std::map<std::size_t, std::vector<std::uint64_t>> of_isosurfaces;
 
     Impl(const RuntimeVolume& of, const Device& on, Precision with, const MemoryBudget& within, const TaskControl* task)
         : whole(of), device(on), precision(with), budget(within), control(task), blocks(of, on.background(), task),
@@ -96,13 +104,26 @@ struct VolumeOnDemand::Impl {
     MemoryNeed need_of_picture(const FrameRequest& request) const {
         return elvis::need_of_picture(request, whole.classes().size(), precision, is_cpu());
     }
-    Selection select(const FrameRequest& rows) const;
-    std::uint32_t rows_that_fit(const FrameRequest& request) const;
+    std::vector<std::uint64_t> elements_of(std::size_t surface, const FrameRequest& rows, std::uint64_t most);
+    Selection select(const FrameRequest& rows);
+    std::uint32_t rows_that_fit(const FrameRequest& request);
     Frame draw_rows(const FrameRequest& rows);
     StillPicture draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why);
 };
 
-Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
+std::vector<std::uint64_t> VolumeOnDemand::Impl::elements_of(std::size_t surface, const FrameRequest& rows,
+                                                             std::uint64_t most) {
+    if (const auto known = of_isosurfaces.find(surface); known != of_isosurfaces.end()) {
+        return known->second;
+    }
+    std::vector<std::uint64_t> own = needed_elements(rows.surfaces[surface], rows, whole, blocks, ranges, most, control);
+    if (is_isosurface(rows.surfaces[surface])) {
+        of_isosurfaces[surface] = own;
+    }
+    return own;
+}
+
+Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) {
     const NeedOfElements need(rows, whole, precision, is_cpu());
     const MemoryNeed in_any_case = need_of_picture(rows) + need.shared();
     if (!in_any_case.fits(budget)) {
@@ -116,16 +137,16 @@ Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
     for (std::size_t index = 0; index < rows.surfaces.size(); ++index) {
         const std::string name = surface_text(rows.surfaces[index], index);
         try {
-            const std::vector<std::uint64_t> own = needed_elements(rows.surfaces[index], rows, whole, blocks, most, control);
+            const std::vector<std::uint64_t> own = elements_of(index, rows, most);
             const std::vector<std::uint64_t> before = std::exchange(all, {});
             std::ranges::set_union(before, own, std::back_inserter(all));
-            if (std::holds_alternative<BoundaryFaces>(rows.surfaces[index].geometry)) {
+            if (is_boundary(rows.surfaces[index])) {
                 faces = faces + need.of_faces(own.size());
             }
             if (const MemoryNeed total = in_any_case + faces + need.of(all); !total.fits(budget)) {
                 return {{}, name + " needs " + std::to_string(own.size()) + of_all + beyond(total, budget)};
             }
-        } catch (const BoxBlocks::TooMany&) {
+        } catch (const TooManyElements&) {
             return {{},
                     name + " needs more than " + std::to_string(most) + of_all + "more than " +
                         beyond(in_any_case + need.least_of(most + 1), budget)};
@@ -135,13 +156,12 @@ Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
 }
 
 /** The most rows a band whose elements fit, in each of the bands. */
-std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) const {
+std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) {
     const std::uint64_t binds = device.max_binding_bytes() / most_bytes_a_pixel / std::max(1u, request.width);
     const auto whole_units = [](std::uint64_t n_rows) {
         return static_cast<std::uint32_t>(std::max<std::uint64_t>(part_rows, n_rows / part_rows * part_rows));
     };
-    const bool has_bands = std::ranges::all_of(
-        request.surfaces, [](const Surface& surface) { return std::holds_alternative<CutPlane>(surface.geometry); });
+    const bool has_bands = std::ranges::all_of(request.surfaces, is_plane);
     std::uint32_t n_rows = request.height <= binds ? request.height : whole_units(binds);
     while (true) {
         std::string lack;
@@ -162,8 +182,7 @@ std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) c
 }
 
 Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
-    const bool has_faces = std::ranges::any_of(
-        rows.surfaces, [](const Surface& surface) { return std::holds_alternative<BoundaryFaces>(surface.geometry); });
+    const bool has_faces = std::ranges::any_of(rows.surfaces, is_boundary);
     std::vector<std::uint64_t> elements = *select(rows).elements;
     work.n_on_device = std::max<std::uint64_t>(work.n_on_device, elements.size());
     ++work.n_bands;
@@ -179,7 +198,7 @@ StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameReq
     const MemoryNeed need = elements.of_all() + elements.shared() + need_of_picture(request);
     if (!need.fits(budget)) {
         throw Error(whole.path(), why + " needs all " + std::to_string(whole.n_elements()) + " elements, at least " +
-                                      beyond(need, budget) + "; cut planes and boundaries need less");
+                                      beyond(need, budget) + "; cut planes, boundaries and isosurfaces of fields need less");
     }
     work.n_on_device = whole.n_elements();
     work.n_bands = 1;
@@ -206,19 +225,21 @@ StillPicture VolumeOnDemand::draw(const Scene& scene) {
     need_budgets_can_hold(scene);
     limit_memory(impl.device, impl.budget.device.value_or(0));
     impl.work.n_on_device = impl.work.n_bands = 0;
+    impl.of_isosurfaces.clear();
     StillPicture still;
     still.request = make_frame_request(scene, impl.whole, impl.ranges);
     still.request.with_buffers = true;
-    if (const auto why = needs_all(still.request, impl.whole)) {
+    if (const auto why = needs_all(still.request, impl.whole, impl.ranges)) {
         still = impl.draw_whole(scene, still.request, *why);
     } else {
         still.remarks = remarks_on(scene, still.request);
         still.frame = render_band_by_band(still.request, impl.rows_that_fit(still.request),
                                           [&impl](const FrameRequest& rows) { return impl.draw_rows(rows); });
         finish_still(scene, impl.whole, still);
+        RoughDemandRanges rough(impl.ranges);
         MissedSurfaces missed;
         missed.add(still.request, still.frame);
-        for (const std::string& text : missed.remarks(scene, still.request, impl.ranges)) {
+        for (const std::string& text : missed.remarks(scene, still.request, rough)) {
             still.remarks.push_back({true, text});
         }
     }

@@ -28,10 +28,10 @@ struct DemandWork {
 };
 
 /**
- * Cut planes need the elements that they meet in the picture, boundaries those that have a part in them; for these elements
- * alone records are asked for. Where they do not fit, planes are drawn in bands of rows. What needs all elements is drawn if
- * they fit. Pictures are those of the whole volume, to the bit; what does not fit is an Error before anything is uploaded,
- * which says what it needs.
+ * Cut planes need the elements that they meet in the picture, boundaries those that have a part in them, isosurfaces those in
+ * which the field may take the isovalues; for these elements alone records are asked for. Where they do not fit, planes are
+ * drawn in bands of rows. What needs all elements is drawn if they fit. Pictures are those of the whole volume, to the bit;
+ * what does not fit is an Error before anything is uploaded, which says what it needs.
  */
 class VolumeOnDemand {
 public:
