@@ -30,6 +30,9 @@ elvis_result elvis_animation_create(elvis_data* data, const elvis_scene* scene, 
             throw InvalidArgument("scene", "has no animation");
         }
         need_one_volume(scene->state.scene, "an animation");
+        if (scene->state.scene.memory) {
+            throw Error(scene->state.scene.volume, "an animation cannot be drawn within a budget of memory yet ('memory')");
+        }
         const std::shared_ptr<Data> state = shown_data(data->state, scene->state.scene, nullptr);
         const DataTask running(*state, nullptr);
         Scene shown = scene_for(*state, scene->state.scene);

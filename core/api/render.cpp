@@ -68,7 +68,11 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         *picture = nullptr;
         need(scene, "scene");
         const elvis_render_options known = known_or_zero(options);
-        if (!scene->state.scene.volumes.empty()) {
+        const bool has_budget = scene->state.scene.memory.has_value();
+        if (has_budget && !data->state->context->other_devices().empty()) {
+            throw InvalidArgument("scene", "'memory' does not go with several devices");
+        }
+        if (!scene->state.scene.volumes.empty() && !has_budget) {
             Scene several = scene->state.scene;
             resize(several, known);
             *picture = draw_volumes(data->state, several, known, task);
@@ -80,10 +84,14 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         still.animation.reset();
         resize(still, known);
         const DataTask running(state, task);
-        provide_glyphs(state, still);
         const Precision precision = precision_of(still);
         StillOptions how = still_options(state, precision, known);
         how.hidden_from = hidden_from(still, known);
+        if (has_budget) {
+            *picture = draw_within_budget(shown, still, how);
+            return;
+        }
+        provide_glyphs(state, still);
         *picture =
             new_picture(shown, precision, draw_still(still, state.volume, state.renderer(precision), how, state.control.get()));
     });

@@ -72,6 +72,20 @@ std::string surface_text(const Surface& surface, std::size_t index) {
     return std::string(name) + " (surface " + std::to_string(index) + ")";
 }
 
+/** Of all buffers, while it lives. */
+class DeviceLimit {
+public:
+    DeviceLimit(const Device& device, std::optional<std::uint64_t> most) : m_device(device) {
+        limit_memory(device, most.value_or(0));
+    }
+    ~DeviceLimit() { limit_memory(m_device, 0); }
+    DeviceLimit(const DeviceLimit&) = delete;
+    DeviceLimit& operator=(const DeviceLimit&) = delete;
+
+private:
+    const Device& m_device;
+};
+
 /** Of all surfaces, or nothing for lack of memory; then what lacks it, in words. */
 struct Selection {
     std::optional<std::vector<std::uint64_t>> elements;
@@ -108,7 +122,8 @@ struct VolumeOnDemand::Impl {
     Selection select(const FrameRequest& rows);
     std::uint32_t rows_that_fit(const FrameRequest& request);
     Frame draw_rows(const FrameRequest& rows);
-    StillPicture draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why);
+    StillPicture draw_whole(const Scene& scene, const FrameRequest& request, const StillOptions& options,
+                            const std::string& why);
 };
 
 std::vector<std::uint64_t> VolumeOnDemand::Impl::elements_of(std::size_t surface, const FrameRequest& rows,
@@ -193,7 +208,8 @@ Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
     return renderer.render(rows, control);
 }
 
-StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why) {
+StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameRequest& request, const StillOptions& options,
+                                              const std::string& why) {
     const NeedOfElements elements(request, whole, precision, is_cpu());
     const MemoryNeed need = elements.of_all() + elements.shared() + need_of_picture(request);
     if (!need.fits(budget)) {
@@ -203,7 +219,7 @@ StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameReq
     work.n_on_device = whole.n_elements();
     work.n_bands = 1;
     Renderer renderer(device, whole, precision, control);
-    return draw_still(scene, whole, renderer, {}, control);
+    return draw_still(scene, whole, renderer, options, control);
 }
 
 VolumeOnDemand::VolumeOnDemand(const RuntimeVolume& whole, const Device& device, Precision precision,
@@ -216,21 +232,22 @@ VolumeOnDemand::VolumeOnDemand(const RuntimeVolume& whole, const Device& device,
     m_impl = std::make_unique<Impl>(whole, device, precision, budget, control);
 }
 
-VolumeOnDemand::~VolumeOnDemand() { limit_memory(m_impl->device, 0); }
+VolumeOnDemand::~VolumeOnDemand() = default;
 
 const DemandWork& VolumeOnDemand::work() const { return m_impl->work; }
 
-StillPicture VolumeOnDemand::draw(const Scene& scene) {
+StillPicture VolumeOnDemand::draw(const Scene& scene, const StillOptions& options) {
     Impl& impl = *m_impl;
     need_budgets_can_hold(scene);
-    limit_memory(impl.device, impl.budget.device.value_or(0));
+    const DeviceLimit limit(impl.device, impl.budget.device);
     impl.work.n_on_device = impl.work.n_bands = 0;
     impl.of_isosurfaces.clear();
     StillPicture still;
     still.request = make_frame_request(scene, impl.whole, impl.ranges);
-    still.request.with_buffers = true;
+    still.request.with_buffers = options.with_buffers;
+    still.request.sharing = options.sharing;
     if (const auto why = needs_all(still.request, impl.whole, impl.ranges)) {
-        still = impl.draw_whole(scene, still.request, *why);
+        still = impl.draw_whole(scene, still.request, options, *why);
     } else {
         still.remarks = remarks_on(scene, still.request);
         still.frame = render_band_by_band(still.request, impl.rows_that_fit(still.request),

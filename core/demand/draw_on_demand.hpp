@@ -42,8 +42,8 @@ public:
     VolumeOnDemand(const VolumeOnDemand&) = delete;
     VolumeOnDemand& operator=(const VolumeOnDemand&) = delete;
 
-    /** Throws Error, also for scenes that are not drawn within budgets yet. */
-    StillPicture draw(const Scene& scene);
+    /** By one device. Throws Error, also for scenes that are not drawn within budgets yet. */
+    StillPicture draw(const Scene& scene, const StillOptions& options = {});
 
     /** Of the last picture. */
     const DemandWork& work() const;

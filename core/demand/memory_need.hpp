@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/memory_budget.hpp>
 #include <core/render/frame.hpp>
 #include <core/vulkan/precision.hpp>
 
@@ -14,11 +15,6 @@
 #include <vector>
 
 namespace elvis {
-
-/** Most bytes that pictures may take; as much as there is where none are given. */
-struct MemoryBudget {
-    std::optional<std::uint64_t> device, host;
-};
 
 struct MemoryNeed {
     std::uint64_t device = 0, host = 0;
