@@ -30,14 +30,12 @@ elvis_result elvis_animation_create(elvis_data* data, const elvis_scene* scene, 
             throw InvalidArgument("scene", "has no animation");
         }
         need_one_volume(scene->state.scene, "an animation");
-        if (scene->state.scene.memory) {
-            throw Error(scene->state.scene.volume, "an animation cannot be drawn within a budget of memory yet ('memory')");
-        }
         const std::shared_ptr<Data> state = shown_data(data->state, scene->state.scene, nullptr);
         const DataTask running(*state, nullptr);
         Scene shown = scene_for(*state, scene->state.scene);
         const Precision precision = precision_of(shown);
-        VolumeRanges& ranges = state->renderer(precision).ranges();
+        PictureRanges& ranges =
+            shown.memory ? state->on_demand(precision, *shown.memory).ranges() : state->renderer(precision).ranges();
         *animation = new elvis_animation{{data->state, precision, AnimationPictures(std::move(shown), state->volume, ranges)}};
     });
 }
@@ -74,6 +72,16 @@ elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame, 
         Scene scene = state.pictures.scene_of(frame);
         const std::shared_ptr<Data> shown = shown_data(state.data, scene, task);
         const DataTask running(*shown, task);
+        if (scene.memory) {
+            VolumeOnDemand& drawing = shown->on_demand(state.precision, *scene.memory);
+            const StillOptions how = still_options(*shown, state.precision, known);
+            const auto draw_it = [&](const Scene& still, FrameRequest request) {
+                return drawing.draw_request(still, std::move(request), how);
+            };
+            StillPicture drawn = state.pictures.draw(frame, scene, shown->volume, drawing.ranges(), draw_it);
+            *picture = new_picture(shown, state.precision, std::move(drawn), drawing.work());
+            return;
+        }
         provide_glyphs(*shown, scene);
         Renderer& renderer = shown->renderer(state.precision);
         *picture = new_picture(shown, state.precision,
@@ -88,7 +96,10 @@ elvis_result elvis_animation_get_remarks(elvis_animation* animation, char** text
         Animation& state = animation->state;
         const std::shared_ptr<Data> shown = shown_data(state.data, state.pictures.scene_of(0), nullptr);
         const DataTask running(*shown, nullptr);
-        const nlohmann::json list = state.pictures.missed(shown->renderer(state.precision).ranges());
+        const std::optional<MemoryBudget> memory = state.pictures.scene_of(0).memory;
+        PictureRanges& ranges =
+            memory ? shown->on_demand(state.precision, *memory).rough_ranges() : shown->renderer(state.precision).ranges();
+        const nlohmann::json list = state.pictures.missed(ranges);
         *text = text_for_caller(list.dump());
     });
 }

@@ -54,6 +54,9 @@ std::vector<Renderer*> Data::other_renderers(Precision precision) {
 }
 
 VolumeOnDemand& Data::on_demand(Precision precision, const MemoryBudget& budget) {
+    if (!context->other_devices().empty()) {
+        throw InvalidArgument("scene", "'memory' does not go with several devices");
+    }
     m_others.clear();
     m_renderer.reset();
     if (!m_on_demand || m_on_demand->precision != precision || m_on_demand->budget != budget) {

@@ -42,20 +42,18 @@ StillOptions still_options(Data& data, Precision precision, const elvis_render_o
     return how;
 }
 
-elvis_picture* draw_within_budget(const std::shared_ptr<Data>& data, const Scene& scene, const StillOptions& options) {
-    const Precision precision = precision_of(scene);
-    VolumeOnDemand& drawing = data->on_demand(precision, *scene.memory);
-    auto picture = std::make_unique<elvis_picture>();
-    picture->state = {data, precision, drawing.draw(scene, options), {}, drawing.work()};
-    picture->state.stats = PictureStats(data->context->device(), precision, picture->state.frame());
-    return picture.release();
-}
-
 elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision,
                            std::variant<StillPicture, ScreenPicture> drawn) {
     auto picture = std::make_unique<elvis_picture>();
     picture->state = {data, precision, std::move(drawn), {}, {}};
     picture->state.stats = PictureStats(data->context->device(), precision, picture->state.frame(), data->renderer(precision));
+    return picture.release();
+}
+
+elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision, StillPicture still, const DemandWork& work) {
+    auto picture = std::make_unique<elvis_picture>();
+    picture->state = {data, precision, std::move(still), {}, work};
+    picture->state.stats = PictureStats(data->context->device(), precision, picture->state.frame());
     return picture.release();
 }
 

@@ -38,11 +38,10 @@ template <class Struct> Struct known_or_zero(const Struct* options) {
 /** By all devices of the data's context. */
 StillOptions still_options(Data& data, Precision precision, const elvis_render_options& options);
 
-/** The picture of a scene that says what it may take; while the data's mutex is held. */
-elvis_picture* draw_within_budget(const std::shared_ptr<Data>& data, const Scene& scene, const StillOptions& options);
-
 /** A new picture, of what was drawn by the data's renderer. */
 elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision,
                            std::variant<StillPicture, ScreenPicture> drawn);
+/** The same of what was drawn within a budget. */
+elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision, StillPicture still, const DemandWork& work);
 
 } // namespace elvis::library

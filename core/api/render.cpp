@@ -69,9 +69,6 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         need(scene, "scene");
         const elvis_render_options known = known_or_zero(options);
         const bool has_budget = scene->state.scene.memory.has_value();
-        if (has_budget && !data->state->context->other_devices().empty()) {
-            throw InvalidArgument("scene", "'memory' does not go with several devices");
-        }
         if (!scene->state.scene.volumes.empty() && !has_budget) {
             Scene several = scene->state.scene;
             resize(several, known);
@@ -85,10 +82,12 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         resize(still, known);
         const DataTask running(state, task);
         const Precision precision = precision_of(still);
+        VolumeOnDemand* const within_budget = has_budget ? &state.on_demand(precision, *still.memory) : nullptr;
         StillOptions how = still_options(state, precision, known);
         how.hidden_from = hidden_from(still, known);
-        if (has_budget) {
-            *picture = draw_within_budget(shown, still, how);
+        if (within_budget != nullptr) {
+            StillPicture drawn = within_budget->draw(still, how);
+            *picture = new_picture(shown, precision, std::move(drawn), within_budget->work());
             return;
         }
         provide_glyphs(state, still);

@@ -104,6 +104,7 @@ struct VolumeOnDemand::Impl {
     BoxBlocks blocks;
     DemandWork work{};
     DemandRanges ranges;
+    RoughDemandRanges rough_ranges{ranges};
     /** Of isosurfaces of the picture that is drawn, by their place among the surfaces: the same for all rows. */
     std::map<std::size_t, std::vector<std::uint64_t>> of_isosurfaces;
 
@@ -122,8 +123,7 @@ struct VolumeOnDemand::Impl {
     Selection select(const FrameRequest& rows);
     std::uint32_t rows_that_fit(const FrameRequest& request);
     Frame draw_rows(const FrameRequest& rows);
-    StillPicture draw_whole(const Scene& scene, const FrameRequest& request, const StillOptions& options,
-                            const std::string& why);
+    StillPicture draw_whole(const Scene& scene, FrameRequest request, const StillOptions& options, const std::string& why);
 };
 
 std::vector<std::uint64_t> VolumeOnDemand::Impl::elements_of(std::size_t surface, const FrameRequest& rows,
@@ -208,7 +208,7 @@ Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
     return renderer.render(rows, control);
 }
 
-StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameRequest& request, const StillOptions& options,
+StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, FrameRequest request, const StillOptions& options,
                                               const std::string& why) {
     const NeedOfElements elements(request, whole, precision, is_cpu());
     const MemoryNeed need = elements.of_all() + elements.shared() + need_of_picture(request);
@@ -219,7 +219,7 @@ StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameReq
     work.n_on_device = whole.n_elements();
     work.n_bands = 1;
     Renderer renderer(device, whole, precision, control);
-    return draw_still(scene, whole, renderer, options, control);
+    return elvis::draw_request(scene, std::move(request), whole, renderer, options, control);
 }
 
 VolumeOnDemand::VolumeOnDemand(const RuntimeVolume& whole, const Device& device, Precision precision,
@@ -236,29 +236,40 @@ VolumeOnDemand::~VolumeOnDemand() = default;
 
 const DemandWork& VolumeOnDemand::work() const { return m_impl->work; }
 
+PictureRanges& VolumeOnDemand::ranges() { return m_impl->ranges; }
+
+PictureRanges& VolumeOnDemand::rough_ranges() { return m_impl->rough_ranges; }
+
 StillPicture VolumeOnDemand::draw(const Scene& scene, const StillOptions& options) {
+    need_budgets_can_hold(scene);
+    const FrameRequest request = make_frame_request(scene, m_impl->whole, ranges());
+    std::vector<FrameRemark> remarks = remarks_on(scene, request);
+    StillPicture still = draw_request(scene, request, options);
+    still.remarks.insert(still.remarks.begin(), remarks.begin(), remarks.end());
+    MissedSurfaces missed;
+    missed.add(still.request, still.frame);
+    for (const std::string& text : missed.remarks(scene, still.request, rough_ranges())) {
+        still.remarks.push_back({true, text});
+    }
+    return still;
+}
+
+StillPicture VolumeOnDemand::draw_request(const Scene& scene, FrameRequest request, const StillOptions& options) {
     Impl& impl = *m_impl;
     need_budgets_can_hold(scene);
     const DeviceLimit limit(impl.device, impl.budget.device);
     impl.work.n_on_device = impl.work.n_bands = 0;
     impl.of_isosurfaces.clear();
     StillPicture still;
-    still.request = make_frame_request(scene, impl.whole, impl.ranges);
-    still.request.with_buffers = options.with_buffers;
-    still.request.sharing = options.sharing;
-    if (const auto why = needs_all(still.request, impl.whole, impl.ranges)) {
-        still = impl.draw_whole(scene, still.request, options, *why);
+    if (const auto why = needs_all(request, impl.whole, impl.ranges)) {
+        still = impl.draw_whole(scene, std::move(request), options, *why);
     } else {
-        still.remarks = remarks_on(scene, still.request);
+        still.request = std::move(request);
+        still.request.with_buffers = options.with_buffers;
+        still.request.sharing = options.sharing;
         still.frame = render_band_by_band(still.request, impl.rows_that_fit(still.request),
                                           [&impl](const FrameRequest& rows) { return impl.draw_rows(rows); });
         finish_still(scene, impl.whole, still);
-        RoughDemandRanges rough(impl.ranges);
-        MissedSurfaces missed;
-        missed.add(still.request, still.frame);
-        for (const std::string& text : missed.remarks(scene, still.request, rough)) {
-            still.remarks.push_back({true, text});
-        }
     }
     impl.work.device_bytes = peak_allocated_bytes(impl.device);
     impl.work.host_bytes = peak_memory();

@@ -44,6 +44,13 @@ public:
 
     /** By one device. Throws Error, also for scenes that are not drawn within budgets yet. */
     StillPicture draw(const Scene& scene, const StillOptions& options = {});
+    /** The picture of a request that was made of the scene by ranges(). Remarks are those on this frame alone. */
+    StillPicture draw_request(const Scene& scene, FrameRequest request, const StillOptions& options = {});
+
+    /** What pictures go by; an Error where the budget lets nothing be known. */
+    PictureRanges& ranges();
+    /** The same for remarks: then about. */
+    PictureRanges& rough_ranges();
 
     /** Of the last picture. */
     const DemandWork& work() const;

@@ -253,7 +253,7 @@ struct Scene {
     /** Which part of the volume is shown (threshold.hpp). */
     std::optional<std::string> threshold;
     std::optional<Precision> precision;
-    /** What a still picture may take, of which only the elements are read that it needs; if absent all are. */
+    /** What a picture may take, of which only the elements are read that it needs; if absent all are. */
     std::optional<MemoryBudget> memory;
     SceneCamera camera;
     std::array<std::uint32_t, 2> size{1024, 768};

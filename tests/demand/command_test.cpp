@@ -79,9 +79,7 @@ TEST_CASE("What does not fit a budget is told, with figures, and nothing is writ
     const ProgramFolder place;
     write_lattice(place, "100 100 100");
     const auto refused = [&](const std::string& options, int status, const std::string& words) {
-        const bool is_animation = options.find("--turntable") != std::string::npos;
-        const Outcome outcome = place.run("render lattice.txt --size 160x120 --range -1,1 " + options +
-                                          (is_animation ? " -o pictures" : " -o picture.png"));
+        const Outcome outcome = place.run("render lattice.txt --size 160x120 --range -1,1 " + options + " -o picture.png");
         INFO(options << ": " << outcome.err);
         CHECK(outcome.status == status);
         CHECK(outcome.err.find(words) != std::string::npos);
@@ -97,7 +95,6 @@ TEST_CASE("What does not fit a budget is told, with figures, and nothing is writ
     refused("--cut-plane 0,0,1,0.1 --device-memory 2Q", 2, "'2Q' is no size");
     refused("--cut-plane 0,0,1,0.1 --host-memory -1", 2, "'-1' is no size");
     refused("--cut-plane 0,0,1,0.1 --device-memory 2G --parts 2", 2, "does not go with --parts");
-    refused("--cut-plane 0,0,1,0.1 --device-memory 2G --turntable 3", 2, "does not go with an animation");
     refused("--cut-plane 0,0,1,0.1 --device-memory 2G --samples 2", 1,
             "several samples a pixel cannot be drawn within a budget");
 }

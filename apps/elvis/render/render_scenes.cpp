@@ -94,8 +94,7 @@ void check_budget(const Wanted& wanted) {
     }
     for (const auto& [other, is_given] :
          {std::pair{"--parts", !arguments.parts.empty()}, std::pair{"--devices", !arguments.devices.empty()},
-          std::pair{"--range in percent", percentiles_of(arguments).has_value()},
-          std::pair{"an animation", wanted.is_animation}}) {
+          std::pair{"--range in percent", percentiles_of(arguments).has_value()}}) {
         if (is_given) {
             const std::string option = arguments.device_memory.empty() ? "--host-memory" : "--device-memory";
             const bool is_by_option = !arguments.device_memory.empty() || !arguments.host_memory.empty();

@@ -447,8 +447,8 @@ typedef struct elvis_render_options {
  * elvis_picture_release.
  *
  * Of a scene with "memory", only elements that the picture needs are read and uploaded, and nothing of them stays; what does
- * not fit is an error (budgets.md). The device's memory is that of all data of the context. Pictures for screens, animations
- * and picked points are not drawn so: the first and the last as if the scene did not say it, animations not at all.
+ * not fit is an error (budgets.md). So it is with the pictures of its animation. The device's memory is that of all data of the
+ * context. Pictures for screens and picked points are as if the scene did not say it.
  */
 ELVIS_EXPORT elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvis_render_options* options,
                                        const elvis_task* task, elvis_picture** picture);
