@@ -12,6 +12,7 @@
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
+#include <core/session/supersampled.hpp>
 #include <core/vulkan/memory_limit.hpp>
 
 #include <algorithm>
@@ -38,9 +39,6 @@ void need_budgets_can_hold(const Scene& scene) {
     };
     if (!scene.volumes.empty()) {
         refuse("several volumes");
-    }
-    if (scene.samples > 1) {
-        refuse("several samples a pixel");
     }
     for (const SceneSurface& surface : scene.surfaces) {
         if (surface.streamlines || surface.arrows) {
@@ -121,7 +119,8 @@ struct VolumeOnDemand::Impl {
     }
     std::vector<std::uint64_t> elements_of(std::size_t surface, const FrameRequest& rows, std::uint64_t most);
     Selection select(const FrameRequest& rows);
-    std::uint32_t rows_that_fit(const FrameRequest& request);
+    std::uint32_t rows_that_fit(const FrameRequest& request, std::uint32_t unit);
+    void draw_selected(const Scene& scene, StillPicture& still);
     Frame draw_rows(const FrameRequest& rows);
     StillPicture draw_whole(const Scene& scene, FrameRequest request, const StillOptions& options, const std::string& why);
 };
@@ -170,11 +169,11 @@ Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) {
     return {std::move(all), {}};
 }
 
-/** The most rows a band whose elements fit, in each of the bands. */
-std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) {
+/** The most rows a band whose elements fit, in each of the bands; a multiple of the unit, or all. */
+std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request, std::uint32_t unit) {
     const std::uint64_t binds = device.max_binding_bytes() / most_bytes_a_pixel / std::max(1u, request.width);
-    const auto whole_units = [](std::uint64_t n_rows) {
-        return static_cast<std::uint32_t>(std::max<std::uint64_t>(part_rows, n_rows / part_rows * part_rows));
+    const auto whole_units = [unit](std::uint64_t n_rows) {
+        return static_cast<std::uint32_t>(std::max<std::uint64_t>(unit, n_rows / unit * unit));
     };
     const bool has_bands = std::ranges::all_of(request.surfaces, is_plane);
     std::uint32_t n_rows = request.height <= binds ? request.height : whole_units(binds);
@@ -189,7 +188,7 @@ std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) {
         if (lack.empty()) {
             return n_rows;
         }
-        if (!has_bands || n_rows <= part_rows) {
+        if (!has_bands || n_rows <= unit) {
             throw Error(whole.path(), lack + (has_bands ? "; that is in a band of " + std::to_string(n_rows) + " rows" : ""));
         }
         n_rows = whole_units(std::min(n_rows, request.height) / 2);
@@ -206,6 +205,23 @@ Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
     Renderer renderer(device, selected, precision, control, {}, true);
     ranges.tell(rows, renderer.ranges());
     return renderer.render(rows, control);
+}
+
+/** With several samples a pixel the colours are means of a finer picture. What does not fit is told before either is drawn. */
+void VolumeOnDemand::Impl::draw_selected(const Scene& scene, StillPicture& still) {
+    const std::uint32_t n = scene.samples;
+    const FrameRequest fine = finer(still.request, n);
+    const std::uint32_t n_rows = rows_that_fit(still.request, part_rows);
+    const std::uint32_t n_fine_rows = n > 1 ? rows_that_fit(fine, n * part_rows) : 0;
+    const auto draw = [this](const FrameRequest& rows) { return draw_rows(rows); };
+    still.frame = render_band_by_band(still.request, n_rows, draw);
+    if (n > 1) {
+        const Frame of_means = render_band_by_band(fine, n_fine_rows, draw, [&still, n](const Frame& band, const Rows& rows) {
+            take_means(band, rows, n, still.frame.color);
+        });
+        still.frame.render_milliseconds += of_means.render_milliseconds;
+        still.frame.device_milliseconds += of_means.device_milliseconds;
+    }
 }
 
 StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, FrameRequest request, const StillOptions& options,
@@ -262,13 +278,15 @@ StillPicture VolumeOnDemand::draw_request(const Scene& scene, FrameRequest reque
     impl.of_isosurfaces.clear();
     StillPicture still;
     if (const auto why = needs_all(request, impl.whole, impl.ranges)) {
+        if (scene.samples > 1) {
+            throw Error(scene.volume, *why + " needs all elements: within a budget of memory it has one sample a pixel");
+        }
         still = impl.draw_whole(scene, std::move(request), options, *why);
     } else {
         still.request = std::move(request);
         still.request.with_buffers = options.with_buffers;
         still.request.sharing = options.sharing;
-        still.frame = render_band_by_band(still.request, impl.rows_that_fit(still.request),
-                                          [&impl](const FrameRequest& rows) { return impl.draw_rows(rows); });
+        impl.draw_selected(scene, still);
         finish_still(scene, impl.whole, still);
     }
     impl.work.device_bytes = peak_allocated_bytes(impl.device);

@@ -95,8 +95,8 @@ TEST_CASE("What does not fit a budget is told, with figures, and nothing is writ
     refused("--cut-plane 0,0,1,0.1 --device-memory 2Q", 2, "'2Q' is no size");
     refused("--cut-plane 0,0,1,0.1 --host-memory -1", 2, "'-1' is no size");
     refused("--cut-plane 0,0,1,0.1 --device-memory 2G --parts 2", 2, "does not go with --parts");
-    refused("--cut-plane 0,0,1,0.1 --device-memory 2G --samples 2", 1,
-            "several samples a pixel cannot be drawn within a budget");
+    refused("--isosurface 0.2 --mesh-lines --device-memory 2G --samples 2", 1,
+            "needs all elements: within a budget of memory it has one sample a pixel");
 }
 
 TEST_CASE("Displaced volumes, and fields joined to a volume, are drawn within a budget, too") {

@@ -111,6 +111,14 @@ TEST_CASE("Planes through every shape show the same bits in both precisions", "[
     }
 }
 
+TEST_CASE("Several samples a pixel are the same bits whether all elements are there or those that they need") {
+    DemandStage stage(all_volumes[3].description);
+    compare(all_volumes[3].name, stage,
+            {"three by three samples",
+             R"("image": {"size": [80, 60], "samples": 3}, "mesh_lines": {},
+                "surfaces": [{"type": "plane", "plane": [0.3, -0.5, 0.8, 0.05]}])"});
+}
+
 TEST_CASE("What needs all elements is drawn where they fit, and refused with figures where not") {
     DemandStage stage(all_volumes[1].description);
     const Scene scene = stage.scene(R"("surfaces": [{"type": "sphere", "center": [0, 0, 0], "radius": 0.6}])");
