@@ -34,7 +34,8 @@ elvis_result elvis_animation_create(elvis_data* data, const elvis_scene* scene, 
         const DataTask running(*state, nullptr);
         Scene shown = scene_for(*state, scene->state.scene);
         const Precision precision = precision_of(shown);
-        VolumeRanges& ranges = state->renderer(precision).ranges();
+        PictureRanges& ranges =
+            shown.memory ? state->on_demand(precision, *shown.memory).ranges() : state->renderer(precision).ranges();
         *animation = new elvis_animation{{data->state, precision, AnimationPictures(std::move(shown), state->volume, ranges)}};
     });
 }
@@ -71,6 +72,16 @@ elvis_result elvis_animation_render(elvis_animation* animation, uint32_t frame, 
         Scene scene = state.pictures.scene_of(frame);
         const std::shared_ptr<Data> shown = shown_data(state.data, scene, task);
         const DataTask running(*shown, task);
+        if (scene.memory) {
+            VolumeOnDemand& drawing = shown->on_demand(state.precision, *scene.memory);
+            const StillOptions how = still_options(*shown, state.precision, known);
+            const auto draw_it = [&](const Scene& still, FrameRequest request) {
+                return drawing.draw_request(still, std::move(request), how);
+            };
+            StillPicture drawn = state.pictures.draw(frame, scene, shown->volume, drawing.ranges(), draw_it);
+            *picture = new_picture(shown, state.precision, std::move(drawn), drawing.work());
+            return;
+        }
         provide_glyphs(*shown, scene);
         Renderer& renderer = shown->renderer(state.precision);
         *picture = new_picture(shown, state.precision,
@@ -85,7 +96,10 @@ elvis_result elvis_animation_get_remarks(elvis_animation* animation, char** text
         Animation& state = animation->state;
         const std::shared_ptr<Data> shown = shown_data(state.data, state.pictures.scene_of(0), nullptr);
         const DataTask running(*shown, nullptr);
-        const nlohmann::json list = state.pictures.missed(shown->renderer(state.precision).ranges());
+        const std::optional<MemoryBudget> memory = state.pictures.scene_of(0).memory;
+        PictureRanges& ranges =
+            memory ? shown->on_demand(state.precision, *memory).rough_ranges() : shown->renderer(state.precision).ranges();
+        const nlohmann::json list = state.pictures.missed(ranges);
         *text = text_for_caller(list.dump());
     });
 }

@@ -19,6 +19,7 @@ Data::~Data() {
     const HostScope scope(context->host);
     m_warped.reset();
     m_others.clear();
+    m_on_demand.reset();
     m_renderer.reset();
     m_prober.reset();
 }
@@ -52,6 +53,20 @@ std::vector<Renderer*> Data::other_renderers(Precision precision) {
     return renderers;
 }
 
+VolumeOnDemand& Data::on_demand(Precision precision, const MemoryBudget& budget) {
+    if (!context->other_devices().empty()) {
+        throw InvalidArgument("scene", "'memory' does not go with several devices");
+    }
+    m_others.clear();
+    m_renderer.reset();
+    if (!m_on_demand || m_on_demand->precision != precision || m_on_demand->budget != budget) {
+        m_on_demand.reset();
+        m_on_demand = std::unique_ptr<OnDemand>(
+            new OnDemand{precision, budget, {volume, context->device(), precision, budget, control.get()}});
+    }
+    return m_on_demand->drawing;
+}
+
 FieldExtrema Data::extrema_of(const FieldChoice& field, std::uint32_t time_step) {
     return m_renderer && field.expression ? m_renderer->ranges().extrema(field, time_step) : extrema.of(field, time_step);
 }
@@ -67,6 +82,7 @@ Prober& Data::prober(ProbeOptions::Evaluation evaluation) {
 void Data::forget_work() {
     m_warped.reset();
     m_others.clear();
+    m_on_demand.reset();
     m_renderer.reset();
     m_prober.reset();
     beside.clear();
@@ -102,6 +118,7 @@ void Data::forget_fields(std::optional<std::uint32_t> only) {
     streamlines.forget();
     arrow_sets.forget();
     extrema.forget_fields();
+    m_on_demand.reset();
     if (m_renderer) {
         m_renderer->forget_fields(only);
     }

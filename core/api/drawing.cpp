@@ -45,8 +45,15 @@ StillOptions still_options(Data& data, Precision precision, const elvis_render_o
 elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision,
                            std::variant<StillPicture, ScreenPicture> drawn) {
     auto picture = std::make_unique<elvis_picture>();
-    picture->state = {data, precision, std::move(drawn), {}};
+    picture->state = {data, precision, std::move(drawn), {}, {}};
     picture->state.stats = PictureStats(data->context->device(), precision, picture->state.frame(), data->renderer(precision));
+    return picture.release();
+}
+
+elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision, StillPicture still, const DemandWork& work) {
+    auto picture = std::make_unique<elvis_picture>();
+    picture->state = {data, precision, std::move(still), {}, work};
+    picture->state.stats = PictureStats(data->context->device(), precision, picture->state.frame());
     return picture.release();
 }
 

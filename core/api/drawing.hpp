@@ -41,5 +41,7 @@ StillOptions still_options(Data& data, Precision precision, const elvis_render_o
 /** A new picture, of what was drawn by the data's renderer. */
 elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision,
                            std::variant<StillPicture, ScreenPicture> drawn);
+/** The same of what was drawn within a budget. */
+elvis_picture* new_picture(const std::shared_ptr<Data>& data, Precision precision, StillPicture still, const DemandWork& work);
 
 } // namespace elvis::library

@@ -9,6 +9,7 @@
 #include <core/arrows/scene_arrows.hpp>
 #include <core/base/cancel.hpp>
 #include <core/base/host.hpp>
+#include <core/demand/draw_on_demand.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/probe/probe.hpp>
@@ -82,6 +83,8 @@ struct Data {
     Renderer& renderer(Precision precision);
     /** Of that precision, on the context's other devices. */
     std::vector<Renderer*> other_renderers(Precision precision);
+    /** Draws with that precision within that budget. What renderers have on devices is given up. */
+    VolumeOnDemand& on_demand(Precision precision, const MemoryBudget& budget);
     /** Those of expressions are sampled where the renderer has its data, if there is one. */
     FieldExtrema extrema_of(const FieldChoice& field, std::uint32_t time_step);
     /** Evaluating that way; the one before is given up. */
@@ -120,6 +123,12 @@ private:
         std::optional<Renderer> renderer;
     };
 
+    struct OnDemand {
+        Precision precision;
+        MemoryBudget budget;
+        VolumeOnDemand drawing;
+    };
+
     struct Warped {
         SceneWarp warp;
         std::uint32_t time_step = 0;
@@ -130,6 +139,7 @@ private:
     std::optional<Prober> m_prober;
     ProbeOptions::Evaluation m_evaluation = ProbeOptions::Evaluation::automatic;
     std::optional<Renderer> m_renderer;
+    std::unique_ptr<OnDemand> m_on_demand;
     std::vector<std::unique_ptr<Other>> m_others;
     Precision m_others_precision = Precision::float32;
     Precision m_precision = Precision::float32;
@@ -164,6 +174,8 @@ struct Picture {
     Precision precision = Precision::float32;
     std::variant<StillPicture, ScreenPicture> drawn;
     PictureStats stats;
+    /** Of a picture within a budget. */
+    std::optional<DemandWork> demand{};
 
     const Frame& frame() const {
         return std::visit([](const auto& picture) -> const Frame& { return picture.frame; }, drawn);

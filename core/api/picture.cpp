@@ -10,6 +10,15 @@ namespace elvis::library {
 
 namespace {
 
+nlohmann::ordered_json demand_json(const DemandWork& work) {
+    return {{"elements", work.n_elements},
+            {"elements_on_device", work.n_on_device},
+            {"bands", work.n_bands},
+            {"device_bytes", work.device_bytes},
+            {"peak_memory_bytes", work.host_bytes},
+            {"bounds_milliseconds", work.bounds_milliseconds}};
+}
+
 nlohmann::ordered_json bar_json(const ColorBar& bar) {
     const auto rgb = [](const Color& color) { return nlohmann::ordered_json{color[0], color[1], color[2]}; };
     nlohmann::ordered_json points = nlohmann::ordered_json::array();
@@ -88,7 +97,11 @@ elvis_result elvis_picture_get_remark(const elvis_picture* picture, uint32_t rem
 elvis_result elvis_picture_get_stats(const elvis_picture* picture, char** text) {
     return call(picture, [&] {
         need(text, "text");
-        *text = text_for_caller(picture->state.stats.json());
+        auto stats = nlohmann::ordered_json::parse(picture->state.stats.json());
+        if (picture->state.demand) {
+            stats["demand"] = demand_json(*picture->state.demand);
+        }
+        *text = text_for_caller(stats.dump(2));
     });
 }
 

@@ -68,7 +68,8 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         *picture = nullptr;
         need(scene, "scene");
         const elvis_render_options known = known_or_zero(options);
-        if (!scene->state.scene.volumes.empty()) {
+        const bool has_budget = scene->state.scene.memory.has_value();
+        if (!scene->state.scene.volumes.empty() && !has_budget) {
             Scene several = scene->state.scene;
             resize(several, known);
             *picture = draw_volumes(data->state, several, known, task);
@@ -80,10 +81,16 @@ elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvi
         still.animation.reset();
         resize(still, known);
         const DataTask running(state, task);
-        provide_glyphs(state, still);
         const Precision precision = precision_of(still);
+        VolumeOnDemand* const within_budget = has_budget ? &state.on_demand(precision, *still.memory) : nullptr;
         StillOptions how = still_options(state, precision, known);
         how.hidden_from = hidden_from(still, known);
+        if (within_budget != nullptr) {
+            StillPicture drawn = within_budget->draw(still, how);
+            *picture = new_picture(shown, precision, std::move(drawn), within_budget->work());
+            return;
+        }
+        provide_glyphs(state, still);
         *picture =
             new_picture(shown, precision, draw_still(still, state.volume, state.renderer(precision), how, state.control.get()));
     });

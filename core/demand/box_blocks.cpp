@@ -1,11 +1,9 @@
 #include <core/demand/box_blocks.hpp>
 
-#include <core/base/in_parts.hpp>
 #include <core/base/infinity.hpp>
+#include <core/demand/elements_in_blocks.hpp>
 
 #include <algorithm>
-#include <atomic>
-#include <mutex>
 
 namespace elvis {
 
@@ -43,14 +41,8 @@ BoxBlocks::BoxBlocks(const RuntimeVolume& volume, Background& background, const 
         }
         const std::size_t n_blocks = m_blocks.size() - first_block;
         std::vector<Farthest> farthest(n_blocks);
-        in_parts(
-            background, n_blocks, 1,
-            [&](std::uint64_t index, std::uint64_t) { read(m_blocks[first_block + index], farthest[index]); },
-            [&] {
-                if (control != nullptr) {
-                    control->check();
-                }
-            });
+        in_blocks(background, n_blocks, control,
+                  [&](std::uint64_t index) { read(m_blocks[first_block + index], farthest[index]); });
         for (std::size_t direction = 0; direction < 6 && n_blocks > 0; ++direction) {
             const auto best = std::ranges::max_element(
                 farthest, {}, [direction](const Farthest& of_block) { return of_block.reach[direction]; });
@@ -98,38 +90,20 @@ void BoxBlocks::for_each(const std::function<bool(const ElementBox& around)>& ma
 
 std::vector<std::uint64_t> BoxBlocks::elements_that(const std::function<bool(const ElementBox&)>& meets,
                                                     std::uint64_t most) const {
-    std::vector<std::vector<std::uint64_t>> of_blocks(m_blocks.size());
-    std::atomic<std::uint64_t> n_elements{0};
-    in_parts(
-        m_background, m_blocks.size(), 1,
-        [&](std::uint64_t index, std::uint64_t) {
-            const Block& block = m_blocks[index];
-            if (!meets(block.box) || n_elements > most) {
-                return;
-            }
-            std::vector<double> boxes(6 * block.count);
-            m_volume.bounds(block.first, block.count, boxes);
-            for (std::uint64_t at = 0; at < block.count; ++at) {
-                if (meets(box_at(boxes, at))) {
-                    of_blocks[index].push_back(block.first + at);
-                }
-            }
-            n_elements += of_blocks[index].size();
-        },
-        [this] {
-            if (m_control != nullptr) {
-                m_control->check();
-            }
-        });
-    if (n_elements > most) {
-        throw TooMany{};
-    }
-    std::vector<std::uint64_t> all;
-    all.reserve(n_elements);
-    for (const std::vector<std::uint64_t>& own : of_blocks) {
-        all.insert(all.end(), own.begin(), own.end());
-    }
-    return all;
+    return elements_in_blocks(m_background, m_blocks.size(), most, m_control,
+                              [&](std::uint64_t index, std::vector<std::uint64_t>& found) {
+                                  const Block& block = m_blocks[index];
+                                  if (!meets(block.box)) {
+                                      return;
+                                  }
+                                  std::vector<double> boxes(6 * block.count);
+                                  m_volume.bounds(block.first, block.count, boxes);
+                                  for (std::uint64_t at = 0; at < block.count; ++at) {
+                                      if (meets(box_at(boxes, at))) {
+                                          found.push_back(block.first + at);
+                                      }
+                                  }
+                              });
 }
 
 } // namespace elvis

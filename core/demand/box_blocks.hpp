@@ -35,13 +35,10 @@ public:
 
     /**
      * Elements whose box meets, ascending. `meets` is asked of blocks' boxes first, may be asked by several threads at once,
-     * and is true of a box that holds one of which it is true. Bounds are read again only where a block meets. Throws TooMany
-     * once there are more than `most`.
+     * and is true of a box that holds one of which it is true. Bounds are read again only where a block meets. Throws
+     * TooManyElements once there are more than `most`.
      */
     std::vector<std::uint64_t> elements_that(const std::function<bool(const ElementBox&)>& meets, std::uint64_t most) const;
-
-    /** Thrown where more elements meet than are wanted. */
-    struct TooMany {};
 
 private:
     struct Block {

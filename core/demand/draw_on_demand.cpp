@@ -5,17 +5,20 @@
 #include <core/base/peak_memory.hpp>
 #include <core/demand/box_blocks.hpp>
 #include <core/demand/demand_ranges.hpp>
+#include <core/demand/elements_in_blocks.hpp>
 #include <core/demand/needed_elements.hpp>
 #include <core/demand/selected_volume.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
+#include <core/session/supersampled.hpp>
 #include <core/vulkan/memory_limit.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -37,15 +40,16 @@ void need_budgets_can_hold(const Scene& scene) {
     if (!scene.volumes.empty()) {
         refuse("several volumes");
     }
-    if (scene.samples > 1) {
-        refuse("several samples a pixel");
-    }
     for (const SceneSurface& surface : scene.surfaces) {
         if (surface.streamlines || surface.arrows) {
             refuse("streamlines, pathlines and arrows");
         }
     }
 }
+
+bool is_plane(const Surface& surface) { return std::holds_alternative<CutPlane>(surface.geometry); }
+bool is_boundary(const Surface& surface) { return std::holds_alternative<BoundaryFaces>(surface.geometry); }
+bool is_isosurface(const Surface& surface) { return std::holds_alternative<Isosurfaces>(surface.geometry); }
 
 /** What of a budget a need is beyond. */
 std::string beyond(const MemoryNeed& need, const MemoryBudget& budget) {
@@ -62,9 +66,23 @@ MemoryBudget less(const MemoryBudget& budget, const MemoryNeed& taken) {
 }
 
 std::string surface_text(const Surface& surface, std::size_t index) {
-    return std::string(std::holds_alternative<CutPlane>(surface.geometry) ? "the cut plane" : "the boundary") + " (surface " +
-           std::to_string(index) + ")";
+    const char* const name = is_plane(surface) ? "the cut plane" : is_boundary(surface) ? "the boundary" : "the isosurface";
+    return std::string(name) + " (surface " + std::to_string(index) + ")";
 }
+
+/** Of all buffers, while it lives. */
+class DeviceLimit {
+public:
+    DeviceLimit(const Device& device, std::optional<std::uint64_t> most) : m_device(device) {
+        limit_memory(device, most.value_or(0));
+    }
+    ~DeviceLimit() { limit_memory(m_device, 0); }
+    DeviceLimit(const DeviceLimit&) = delete;
+    DeviceLimit& operator=(const DeviceLimit&) = delete;
+
+private:
+    const Device& m_device;
+};
 
 /** Of all surfaces, or nothing for lack of memory; then what lacks it, in words. */
 struct Selection {
@@ -84,6 +102,9 @@ struct VolumeOnDemand::Impl {
     BoxBlocks blocks;
     DemandWork work{};
     DemandRanges ranges;
+    RoughDemandRanges rough_ranges{ranges};
+    /** Of isosurfaces of the picture that is drawn, by their place among the surfaces: the same for all rows. */
+    std::map<std::size_t, std::vector<std::uint64_t>> of_isosurfaces;
 
     Impl(const RuntimeVolume& of, const Device& on, Precision with, const MemoryBudget& within, const TaskControl* task)
         : whole(of), device(on), precision(with), budget(within), control(task), blocks(of, on.background(), task),
@@ -96,13 +117,27 @@ struct VolumeOnDemand::Impl {
     MemoryNeed need_of_picture(const FrameRequest& request) const {
         return elvis::need_of_picture(request, whole.classes().size(), precision, is_cpu());
     }
-    Selection select(const FrameRequest& rows) const;
-    std::uint32_t rows_that_fit(const FrameRequest& request) const;
+    std::vector<std::uint64_t> elements_of(std::size_t surface, const FrameRequest& rows, std::uint64_t most);
+    Selection select(const FrameRequest& rows);
+    std::uint32_t rows_that_fit(const FrameRequest& request, std::uint32_t unit);
+    void draw_selected(const Scene& scene, StillPicture& still);
     Frame draw_rows(const FrameRequest& rows);
-    StillPicture draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why);
+    StillPicture draw_whole(const Scene& scene, FrameRequest request, const StillOptions& options, const std::string& why);
 };
 
-Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
+std::vector<std::uint64_t> VolumeOnDemand::Impl::elements_of(std::size_t surface, const FrameRequest& rows,
+                                                             std::uint64_t most) {
+    if (const auto known = of_isosurfaces.find(surface); known != of_isosurfaces.end()) {
+        return known->second;
+    }
+    std::vector<std::uint64_t> own = needed_elements(rows.surfaces[surface], rows, whole, blocks, ranges, most, control);
+    if (is_isosurface(rows.surfaces[surface])) {
+        of_isosurfaces[surface] = own;
+    }
+    return own;
+}
+
+Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) {
     const NeedOfElements need(rows, whole, precision, is_cpu());
     const MemoryNeed in_any_case = need_of_picture(rows) + need.shared();
     if (!in_any_case.fits(budget)) {
@@ -116,16 +151,16 @@ Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
     for (std::size_t index = 0; index < rows.surfaces.size(); ++index) {
         const std::string name = surface_text(rows.surfaces[index], index);
         try {
-            const std::vector<std::uint64_t> own = needed_elements(rows.surfaces[index], rows, whole, blocks, most, control);
+            const std::vector<std::uint64_t> own = elements_of(index, rows, most);
             const std::vector<std::uint64_t> before = std::exchange(all, {});
             std::ranges::set_union(before, own, std::back_inserter(all));
-            if (std::holds_alternative<BoundaryFaces>(rows.surfaces[index].geometry)) {
+            if (is_boundary(rows.surfaces[index])) {
                 faces = faces + need.of_faces(own.size());
             }
             if (const MemoryNeed total = in_any_case + faces + need.of(all); !total.fits(budget)) {
                 return {{}, name + " needs " + std::to_string(own.size()) + of_all + beyond(total, budget)};
             }
-        } catch (const BoxBlocks::TooMany&) {
+        } catch (const TooManyElements&) {
             return {{},
                     name + " needs more than " + std::to_string(most) + of_all + "more than " +
                         beyond(in_any_case + need.least_of(most + 1), budget)};
@@ -134,14 +169,13 @@ Selection VolumeOnDemand::Impl::select(const FrameRequest& rows) const {
     return {std::move(all), {}};
 }
 
-/** The most rows a band whose elements fit, in each of the bands. */
-std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) const {
+/** The most rows a band whose elements fit, in each of the bands; a multiple of the unit, or all. */
+std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request, std::uint32_t unit) {
     const std::uint64_t binds = device.max_binding_bytes() / most_bytes_a_pixel / std::max(1u, request.width);
-    const auto whole_units = [](std::uint64_t n_rows) {
-        return static_cast<std::uint32_t>(std::max<std::uint64_t>(part_rows, n_rows / part_rows * part_rows));
+    const auto whole_units = [unit](std::uint64_t n_rows) {
+        return static_cast<std::uint32_t>(std::max<std::uint64_t>(unit, n_rows / unit * unit));
     };
-    const bool has_bands = std::ranges::all_of(
-        request.surfaces, [](const Surface& surface) { return std::holds_alternative<CutPlane>(surface.geometry); });
+    const bool has_bands = std::ranges::all_of(request.surfaces, is_plane);
     std::uint32_t n_rows = request.height <= binds ? request.height : whole_units(binds);
     while (true) {
         std::string lack;
@@ -154,7 +188,7 @@ std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) c
         if (lack.empty()) {
             return n_rows;
         }
-        if (!has_bands || n_rows <= part_rows) {
+        if (!has_bands || n_rows <= unit) {
             throw Error(whole.path(), lack + (has_bands ? "; that is in a band of " + std::to_string(n_rows) + " rows" : ""));
         }
         n_rows = whole_units(std::min(n_rows, request.height) / 2);
@@ -162,8 +196,7 @@ std::uint32_t VolumeOnDemand::Impl::rows_that_fit(const FrameRequest& request) c
 }
 
 Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
-    const bool has_faces = std::ranges::any_of(
-        rows.surfaces, [](const Surface& surface) { return std::holds_alternative<BoundaryFaces>(surface.geometry); });
+    const bool has_faces = std::ranges::any_of(rows.surfaces, is_boundary);
     std::vector<std::uint64_t> elements = *select(rows).elements;
     work.n_on_device = std::max<std::uint64_t>(work.n_on_device, elements.size());
     ++work.n_bands;
@@ -174,17 +207,35 @@ Frame VolumeOnDemand::Impl::draw_rows(const FrameRequest& rows) {
     return renderer.render(rows, control);
 }
 
-StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, const FrameRequest& request, const std::string& why) {
+/** With several samples a pixel the colours are means of a finer picture. What does not fit is told before either is drawn. */
+void VolumeOnDemand::Impl::draw_selected(const Scene& scene, StillPicture& still) {
+    const std::uint32_t n = scene.samples;
+    const FrameRequest fine = finer(still.request, n);
+    const std::uint32_t n_rows = rows_that_fit(still.request, part_rows);
+    const std::uint32_t n_fine_rows = n > 1 ? rows_that_fit(fine, n * part_rows) : 0;
+    const auto draw = [this](const FrameRequest& rows) { return draw_rows(rows); };
+    still.frame = render_band_by_band(still.request, n_rows, draw);
+    if (n > 1) {
+        const Frame of_means = render_band_by_band(fine, n_fine_rows, draw, [&still, n](const Frame& band, const Rows& rows) {
+            take_means(band, rows, n, still.frame.color);
+        });
+        still.frame.render_milliseconds += of_means.render_milliseconds;
+        still.frame.device_milliseconds += of_means.device_milliseconds;
+    }
+}
+
+StillPicture VolumeOnDemand::Impl::draw_whole(const Scene& scene, FrameRequest request, const StillOptions& options,
+                                              const std::string& why) {
     const NeedOfElements elements(request, whole, precision, is_cpu());
     const MemoryNeed need = elements.of_all() + elements.shared() + need_of_picture(request);
     if (!need.fits(budget)) {
         throw Error(whole.path(), why + " needs all " + std::to_string(whole.n_elements()) + " elements, at least " +
-                                      beyond(need, budget) + "; cut planes and boundaries need less");
+                                      beyond(need, budget) + "; cut planes, boundaries and isosurfaces of fields need less");
     }
     work.n_on_device = whole.n_elements();
     work.n_bands = 1;
     Renderer renderer(device, whole, precision, control);
-    return draw_still(scene, whole, renderer, {}, control);
+    return elvis::draw_request(scene, std::move(request), whole, renderer, options, control);
 }
 
 VolumeOnDemand::VolumeOnDemand(const RuntimeVolume& whole, const Device& device, Precision precision,
@@ -197,30 +248,46 @@ VolumeOnDemand::VolumeOnDemand(const RuntimeVolume& whole, const Device& device,
     m_impl = std::make_unique<Impl>(whole, device, precision, budget, control);
 }
 
-VolumeOnDemand::~VolumeOnDemand() { limit_memory(m_impl->device, 0); }
+VolumeOnDemand::~VolumeOnDemand() = default;
 
 const DemandWork& VolumeOnDemand::work() const { return m_impl->work; }
 
-StillPicture VolumeOnDemand::draw(const Scene& scene) {
+PictureRanges& VolumeOnDemand::ranges() { return m_impl->ranges; }
+
+PictureRanges& VolumeOnDemand::rough_ranges() { return m_impl->rough_ranges; }
+
+StillPicture VolumeOnDemand::draw(const Scene& scene, const StillOptions& options) {
+    need_budgets_can_hold(scene);
+    const FrameRequest request = make_frame_request(scene, m_impl->whole, ranges());
+    std::vector<FrameRemark> remarks = remarks_on(scene, request);
+    StillPicture still = draw_request(scene, request, options);
+    still.remarks.insert(still.remarks.begin(), remarks.begin(), remarks.end());
+    MissedSurfaces missed;
+    missed.add(still.request, still.frame);
+    for (const std::string& text : missed.remarks(scene, still.request, rough_ranges())) {
+        still.remarks.push_back({true, text});
+    }
+    return still;
+}
+
+StillPicture VolumeOnDemand::draw_request(const Scene& scene, FrameRequest request, const StillOptions& options) {
     Impl& impl = *m_impl;
     need_budgets_can_hold(scene);
-    limit_memory(impl.device, impl.budget.device.value_or(0));
+    const DeviceLimit limit(impl.device, impl.budget.device);
     impl.work.n_on_device = impl.work.n_bands = 0;
+    impl.of_isosurfaces.clear();
     StillPicture still;
-    still.request = make_frame_request(scene, impl.whole, impl.ranges);
-    still.request.with_buffers = true;
-    if (const auto why = needs_all(still.request, impl.whole)) {
-        still = impl.draw_whole(scene, still.request, *why);
-    } else {
-        still.remarks = remarks_on(scene, still.request);
-        still.frame = render_band_by_band(still.request, impl.rows_that_fit(still.request),
-                                          [&impl](const FrameRequest& rows) { return impl.draw_rows(rows); });
-        finish_still(scene, impl.whole, still);
-        MissedSurfaces missed;
-        missed.add(still.request, still.frame);
-        for (const std::string& text : missed.remarks(scene, still.request, impl.ranges)) {
-            still.remarks.push_back({true, text});
+    if (const auto why = needs_all(request, impl.whole, impl.ranges)) {
+        if (scene.samples > 1) {
+            throw Error(scene.volume, *why + " needs all elements: within a budget of memory it has one sample a pixel");
         }
+        still = impl.draw_whole(scene, std::move(request), options, *why);
+    } else {
+        still.request = std::move(request);
+        still.request.with_buffers = options.with_buffers;
+        still.request.sharing = options.sharing;
+        impl.draw_selected(scene, still);
+        finish_still(scene, impl.whole, still);
     }
     impl.work.device_bytes = peak_allocated_bytes(impl.device);
     impl.work.host_bytes = peak_memory();

@@ -28,10 +28,10 @@ struct DemandWork {
 };
 
 /**
- * Cut planes need the elements that they meet in the picture, boundaries those that have a part in them; for these elements
- * alone records are asked for. Where they do not fit, planes are drawn in bands of rows. What needs all elements is drawn if
- * they fit. Pictures are those of the whole volume, to the bit; what does not fit is an Error before anything is uploaded,
- * which says what it needs.
+ * Cut planes need the elements that they meet in the picture, boundaries those that have a part in them, isosurfaces those in
+ * which the field may take the isovalues; for these elements alone records are asked for. Where they do not fit, planes are
+ * drawn in bands of rows. What needs all elements is drawn if they fit. Pictures are those of the whole volume, to the bit;
+ * what does not fit is an Error before anything is uploaded, which says what it needs.
  */
 class VolumeOnDemand {
 public:
@@ -42,8 +42,15 @@ public:
     VolumeOnDemand(const VolumeOnDemand&) = delete;
     VolumeOnDemand& operator=(const VolumeOnDemand&) = delete;
 
-    /** Throws Error, also for scenes that are not drawn within budgets yet. */
-    StillPicture draw(const Scene& scene);
+    /** By one device. Throws Error, also for scenes that are not drawn within budgets yet. */
+    StillPicture draw(const Scene& scene, const StillOptions& options = {});
+    /** The picture of a request that was made of the scene by ranges(). Remarks are those on this frame alone. */
+    StillPicture draw_request(const Scene& scene, FrameRequest request, const StillOptions& options = {});
+
+    /** What pictures go by; an Error where the budget lets nothing be known. */
+    PictureRanges& ranges();
+    /** The same for remarks: then about. */
+    PictureRanges& rough_ranges();
 
     /** Of the last picture. */
     const DemandWork& work() const;

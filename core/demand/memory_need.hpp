@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/memory_budget.hpp>
 #include <core/render/frame.hpp>
 #include <core/vulkan/precision.hpp>
 
@@ -14,11 +15,6 @@
 #include <vector>
 
 namespace elvis {
-
-/** Most bytes that pictures may take; as much as there is where none are given. */
-struct MemoryBudget {
-    std::optional<std::uint64_t> device, host;
-};
 
 struct MemoryNeed {
     std::uint64_t device = 0, host = 0;
@@ -36,19 +32,22 @@ public:
 
     /** What all elements share: buffers for all classes, and octants of bent ones, which come when they are asked for. */
     MemoryNeed shared() const { return {m_shared_bytes, m_is_cpu ? m_shared_bytes : 0}; }
-    /** Without that. `elements`: ascending. */
+    /** Without that. `elements`: ascending. Octants of isosurfaces in strongly bent ones take more. */
     MemoryNeed of(std::span<const std::uint64_t> elements) const;
     MemoryNeed of_all() const;
     /** What so many faces take besides, at least: strongly bent ones take more. */
     MemoryNeed of_faces(std::uint64_t n_faces) const;
-    /** What so many take at least; and how many fit at most. */
+    /** What so many take at least, without octants of isosurfaces; and how many fit at most. */
     MemoryNeed least_of(std::uint64_t n_elements) const;
     std::uint64_t most(const MemoryBudget& budget) const;
 
 private:
     MemoryNeed of_class(std::size_t element_class, std::uint64_t n_elements) const;
+    MemoryNeed of_octants(std::uint64_t n_elements) const;
 
     std::uint64_t m_shared_bytes = 0;
+    /** Fields whose isosurfaces are looked for. */
+    std::size_t m_n_isosurfaces = 0;
     /** Of an element of each class, on the device. */
     std::vector<std::uint64_t> m_bytes;
     std::vector<std::uint64_t> m_first_elements;

@@ -2,10 +2,12 @@
 
 #include <core/base/bounds.hpp>
 #include <core/camera/camera_ray.hpp>
+#include <core/demand/elements_in_blocks.hpp>
 #include <core/volume/boundary/element_faces.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace elvis {
@@ -79,45 +81,104 @@ std::function<bool(const ElementBox&)> meets_plane_in_view(const CutPlane& plane
     };
 }
 
-std::optional<std::string> needs_all(const Surface& surface, const RuntimeVolume& whole) {
-    const bool is_plane = std::holds_alternative<CutPlane>(surface.geometry);
-    const bool is_boundary = std::holds_alternative<BoundaryFaces>(surface.geometry) && !whole.is_cut();
-    if (!is_plane && !is_boundary) {
-        return traits_of(surface.geometry).isosurfaces != nullptr ? "an isosurface" : "a surface that is no plane or boundary";
-    }
-    if (!surface.conditions.empty()) {
-        return "a surface with a threshold";
-    }
-    return surface.lic ? std::optional<std::string>("line integral convolution") : std::nullopt;
-}
+namespace {
 
-std::optional<std::string> needs_all(const FrameRequest& request, const RuntimeVolume& whole) {
+using Why = std::optional<std::string>;
+
+/** What a kind of surface needs all elements for. */
+struct NeedOfKind {
+    const Surface& surface;
+    const RuntimeVolume& whole;
+    DemandRanges& ranges;
+    std::uint32_t time_step;
+
+    Why operator()(const CutPlane&) const { return {}; }
+    Why operator()(const BoundaryFaces&) const { return whole.is_cut() ? Why("the boundary of elements that are cut") : Why(); }
+    Why operator()(const Isosurfaces& isosurfaces) const {
+        if (isosurfaces.field.expression) {
+            return "an isosurface of an expression";
+        }
+        if (surface.has_lines()) {
+            return "an isosurface with lines on it";
+        }
+        if (!isosurfaces.skips_by_range) {
+            return "an isosurface for which no elements are skipped";
+        }
+        if (!ranges.are_proven(isosurfaces.field.field, time_step)) {
+            return "an isosurface of a field whose ranges are estimates";
+        }
+        return {};
+    }
+    Why operator()(const FlatElements&) const { return other(); }
+    Why operator()(const ElementFaces&) const { return other(); }
+    Why operator()(const WireFrame&) const { return other(); }
+    Why operator()(const CutShape&) const { return other(); }
+
+private:
+    static Why other() { return "a surface that is no plane, boundary or isosurface"; }
+};
+
+/** Finds the elements that a kind of surface needs. */
+struct ElementsOfKind {
+    const FrameRequest& rows;
+    const RuntimeVolume& whole;
+    const BoxBlocks& blocks;
+    DemandRanges& ranges;
+    std::uint64_t most;
+    const TaskControl* control;
+
+    using Elements = std::vector<std::uint64_t>;
+
+    Elements operator()(const CutPlane& plane) const {
+        return blocks.elements_that(meets_plane_in_view(plane, rows, blocks.bounds()), most);
+    }
+    Elements operator()(const BoundaryFaces& boundary) const {
+        Elements elements;
+        for (const ElementFace& face : boundary_faces(whole, boundary.groups, control)) {
+            if (elements.empty() || elements.back() != face.element) {
+                elements.push_back(face.element);
+            }
+        }
+        if (elements.size() > most) {
+            throw TooManyElements{};
+        }
+        return elements;
+    }
+    /** Out of sight, too: what is divided into octants is a matter of all that may hold an isovalue. */
+    Elements operator()(const Isosurfaces& isosurfaces) const {
+        const FieldChoice& field = isosurfaces.field;
+        return ranges.blocks_of(field.field, rows.time_step).elements_with(isosurfaces.values, field.component, most);
+    }
+    template <class Other> Elements operator()(const Other&) const {
+        assert(false && "needs_all()");
+        return {};
+    }
+};
+
+} // namespace
+
+std::optional<std::string> needs_all(const FrameRequest& request, const RuntimeVolume& whole, DemandRanges& ranges) {
     if (request.volume) {
         return "the volume itself";
     }
     for (const Surface& surface : request.surfaces) {
-        if (const auto why = needs_all(surface, whole)) {
+        if (const Why why = std::visit(NeedOfKind{surface, whole, ranges, request.time_step}, surface.geometry)) {
             return why;
+        }
+        if (!surface.conditions.empty()) {
+            return "a surface with a threshold";
+        }
+        if (surface.lic) {
+            return "line integral convolution";
         }
     }
     return std::nullopt;
 }
 
 std::vector<std::uint64_t> needed_elements(const Surface& surface, const FrameRequest& rows, const RuntimeVolume& whole,
-                                           const BoxBlocks& blocks, std::uint64_t most, const TaskControl* control) {
-    if (const auto* const plane = std::get_if<CutPlane>(&surface.geometry)) {
-        return blocks.elements_that(meets_plane_in_view(*plane, rows, blocks.bounds()), most);
-    }
-    std::vector<std::uint64_t> elements;
-    for (const ElementFace& face : boundary_faces(whole, std::get<BoundaryFaces>(surface.geometry).groups, control)) {
-        if (elements.empty() || elements.back() != face.element) {
-            elements.push_back(face.element);
-        }
-    }
-    if (elements.size() > most) {
-        throw BoxBlocks::TooMany{};
-    }
-    return elements;
+                                           const BoxBlocks& blocks, DemandRanges& ranges, std::uint64_t most,
+                                           const TaskControl* control) {
+    return std::visit(ElementsOfKind{rows, whole, blocks, ranges, most, control}, surface.geometry);
 }
 
 } // namespace elvis

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <core/demand/box_blocks.hpp>
+#include <core/demand/demand_ranges.hpp>
 #include <core/render/frame.hpp>
 
 #include <cstdint>
@@ -22,16 +23,15 @@ namespace elvis {
 std::function<bool(const ElementBox&)> meets_plane_in_view(const CutPlane& plane, const FrameRequest& request,
                                                            const ElementBox& bounds);
 
-/** Why the surface needs all elements, for people; nothing if some are enough. */
-std::optional<std::string> needs_all(const Surface& surface, const RuntimeVolume& whole);
-/** The same of all that the picture shows. */
-std::optional<std::string> needs_all(const FrameRequest& request, const RuntimeVolume& whole);
+/** Why what the picture shows needs all elements, for people; nothing if some are enough. */
+std::optional<std::string> needs_all(const FrameRequest& request, const RuntimeVolume& whole, DemandRanges& ranges);
 
 /**
  * Those that the surface needs, ascending; needs_all() is nothing. `rows`: the picture, or some rows of it. Throws
- * BoxBlocks::TooMany.
+ * TooManyElements.
  */
 std::vector<std::uint64_t> needed_elements(const Surface& surface, const FrameRequest& rows, const RuntimeVolume& whole,
-                                           const BoxBlocks& blocks, std::uint64_t most, const TaskControl* control);
+                                           const BoxBlocks& blocks, DemandRanges& ranges, std::uint64_t most,
+                                           const TaskControl* control);
 
 } // namespace elvis

@@ -382,6 +382,9 @@ void need_parts_can_draw(const Scene& scene) {
     if (!scene.volumes.empty()) {
         refuse(scene, "several volumes");
     }
+    if (scene.memory) {
+        refuse(scene, "a scene with a budget of memory ('memory')");
+    }
     if (scene.samples > 1) {
         refuse(scene, "several samples a pixel");
     }

@@ -270,16 +270,14 @@ std::vector<FrameRequest> bands_of(const FrameRequest& request, std::uint32_t n_
 }
 
 Frame render_band_by_band(const FrameRequest& request, std::uint32_t n_rows,
-                          const std::function<Frame(const FrameRequest& band)>& draw) {
-    if (n_rows >= request.height) {
-        return draw(request);
-    }
-    Frame pixels, whole;
+                          const std::function<Frame(const FrameRequest& band)>& draw,
+                          const std::function<void(const Frame& band, const Rows& rows)>& take) {
+    Frame whole;
     for (const Rows& rows : all_bands(request, n_rows)) {
-        const Rows drawn = drawn_for(rows, request);
-        Frame band = draw(request_for(request, drawn));
+        const Rows drawn = n_rows < request.height ? drawn_for(rows, request) : rows;
+        Frame band = draw(n_rows < request.height ? request_for(request, drawn) : request);
         crop(band, drawn, rows);
-        put_pixels(band, rows, request, pixels);
+        take(band, rows);
         add_part(band, whole);
         whole.render_milliseconds += band.render_milliseconds;
         whole.device_milliseconds += band.device_milliseconds;
@@ -287,6 +285,17 @@ Frame render_band_by_band(const FrameRequest& request, std::uint32_t n_rows,
     whole.width = request.width;
     whole.height = request.height;
     whole.counts.pixels = std::uint64_t{request.width} * request.height;
+    return whole;
+}
+
+Frame render_band_by_band(const FrameRequest& request, std::uint32_t n_rows,
+                          const std::function<Frame(const FrameRequest& band)>& draw) {
+    if (n_rows >= request.height) {
+        return draw(request);
+    }
+    Frame pixels;
+    Frame whole = render_band_by_band(request, n_rows, draw,
+                                      [&](const Frame& band, const Rows& rows) { put_pixels(band, rows, request, pixels); });
     take_pixels(std::move(pixels), whole);
     return whole;
 }

@@ -40,7 +40,12 @@ Frame render_in_bands(std::span<Renderer* const> renderers, const FrameRequest& 
 /** What is asked for in such bands, a multiple of part_rows each, with the rows around them that lines look at. */
 std::vector<FrameRequest> bands_of(const FrameRequest& request, std::uint32_t n_rows);
 
-/** The picture in these bands, one after the other, each drawn by `draw`: to the bit what one renderer draws at once. */
+/** Draws bands one after the other, each by `draw`, and gives each with its rows to `take`. Returns what render_bands does. */
+Frame render_band_by_band(const FrameRequest& request, std::uint32_t n_rows,
+                          const std::function<Frame(const FrameRequest& band)>& draw,
+                          const std::function<void(const Frame& band, const Rows& rows)>& take);
+
+/** The picture in these bands: to the bit what one renderer draws at once. */
 Frame render_band_by_band(const FrameRequest& request, std::uint32_t n_rows,
                           const std::function<Frame(const FrameRequest& band)>& draw);
 

@@ -170,7 +170,9 @@ void SurfaceDrawing::provide(const Isosurfaces& isosurfaces) {
         m_own.point_values();
     }
     const double offset = m_fields.upload(isosurfaces.field, m_request.time_step);
-    m_passes.of(isosurfaces.field).isosurfaces().choose(isosurfaces, offset, m_fields.component(isosurfaces.field));
+    m_passes.of(isosurfaces.field)
+        .isosurfaces()
+        .choose(isosurfaces, m_request.time_step, offset, m_fields.component(isosurfaces.field));
     provide_lines(isosurfaces);
 }
 

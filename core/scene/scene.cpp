@@ -117,6 +117,18 @@ SceneWarp read_warp(const JsonObject& object) {
     return warp;
 }
 
+std::optional<std::uint64_t> read_size(const JsonObject& memory, const char* key) {
+    if (!memory.has(key)) {
+        return {};
+    }
+    const std::string text = memory.text(key);
+    const std::optional<std::uint64_t> bytes = bytes_of_size(text);
+    if (!bytes) {
+        memory.fail(key, no_size_text(text));
+    }
+    return bytes;
+}
+
 void read_image(const JsonObject& image, const std::string& path, Scene& scene) {
     if (image.has("size")) {
         const std::vector<double> size = image.numbers("size");
@@ -183,6 +195,10 @@ Scene scene_of(const nlohmann::json& document, const std::string& path) {
     }
     if (root.has("precision")) {
         scene.precision = precision_named(root.word("precision"));
+    }
+    if (root.has("memory")) {
+        const JsonObject memory = root.object("memory");
+        scene.memory = {read_size(memory, "device"), read_size(memory, "host")};
     }
     if (root.has("camera")) {
         scene.camera = read_camera(root.object("camera"));

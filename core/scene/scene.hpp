@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <core/base/memory_budget.hpp>
 #include <core/render/frame.hpp>
 #include <core/scene/animation.hpp>
 #include <core/scene/color/opacity.hpp>
@@ -252,6 +253,8 @@ struct Scene {
     /** Which part of the volume is shown (threshold.hpp). */
     std::optional<std::string> threshold;
     std::optional<Precision> precision;
+    /** What a picture may take, of which only the elements are read that it needs; if absent all are. */
+    std::optional<MemoryBudget> memory;
     SceneCamera camera;
     std::array<std::uint32_t, 2> size{1024, 768};
     std::array<double, 4> background{1, 1, 1, 1};

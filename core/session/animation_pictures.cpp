@@ -13,7 +13,7 @@ std::vector<std::uint32_t> steps_of_animation(const Scene& scene, const RuntimeV
     return steps_of(*scene.animation->time_steps, volume.times().size(), scene.volume);
 }
 
-AnimationPictures::AnimationPictures(Scene scene, const RuntimeVolume& volume, VolumeRanges& ranges)
+AnimationPictures::AnimationPictures(Scene scene, const RuntimeVolume& volume, PictureRanges& ranges)
     : m_scene(std::move(scene)) {
     m_scene.range_steps = steps_of_animation(m_scene, volume);
     Scene first = m_scene;
@@ -33,7 +33,7 @@ Scene AnimationPictures::scene_of(std::size_t frame) const {
 }
 
 const FrameRequest& AnimationPictures::request_of(const Scene& scene, Moment moment, const RuntimeVolume& volume,
-                                                  VolumeRanges& ranges) {
+                                                  PictureRanges& ranges) {
     auto found = m_requests.find(moment);
     if (found == m_requests.end()) {
         found = m_requests.try_emplace(moment, make_frame_request(scene, volume, ranges)).first;
@@ -43,19 +43,26 @@ const FrameRequest& AnimationPictures::request_of(const Scene& scene, Moment mom
 
 StillPicture AnimationPictures::draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, Renderer& renderer,
                                      const StillOptions& options, const TaskControl* control) {
+    return draw(frame, shown, volume, renderer.ranges(), [&](const Scene& scene, FrameRequest request) {
+        return draw_request(scene, std::move(request), volume, renderer, options, control);
+    });
+}
+
+StillPicture AnimationPictures::draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, PictureRanges& ranges,
+                                     const DrawRequest& draw_it) {
     const AnimationFrame& wanted = m_frames.at(frame);
     const Moment moment = moment_of(wanted);
-    FrameRequest request = request_of(shown, moment, volume, renderer.ranges());
+    FrameRequest request = request_of(shown, moment, volume, ranges);
     request.camera = wanted.camera;
     std::vector<FrameRemark> remarks = m_drawn.contains(moment) ? std::vector<FrameRemark>() : remarks_on(m_scene, request);
-    StillPicture still = draw_request(m_scene, std::move(request), volume, renderer, options, control);
+    StillPicture still = draw_it(m_scene, std::move(request));
     still.remarks.insert(still.remarks.begin(), remarks.begin(), remarks.end());
     m_drawn.insert(moment);
     m_missed.add(still.request, still.frame);
     return still;
 }
 
-std::vector<std::string> AnimationPictures::missed(VolumeRanges& ranges) const {
+std::vector<std::string> AnimationPictures::missed(PictureRanges& ranges) const {
     if (m_drawn.empty()) {
         return {};
     }

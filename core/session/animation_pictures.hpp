@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -24,7 +25,7 @@ std::vector<std::uint32_t> steps_of_animation(const Scene& scene, const RuntimeV
 class AnimationPictures {
 public:
     /** Of a scene with an animation. Throws Error where the scene does not suit the volume. */
-    AnimationPictures(Scene scene, const RuntimeVolume& volume, VolumeRanges& ranges);
+    AnimationPictures(Scene scene, const RuntimeVolume& volume, PictureRanges& ranges);
 
     const std::vector<AnimationFrame>& frames() const { return m_frames; }
     double frames_a_second() const { return m_scene.animation->frames_a_second; }
@@ -38,16 +39,20 @@ public:
      */
     StillPicture draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, Renderer& renderer,
                       const StillOptions& options, const TaskControl* control = nullptr);
+    /** The same by something else that draws the picture of a request. */
+    using DrawRequest = std::function<StillPicture(const Scene& scene, FrameRequest request)>;
+    StillPicture draw(std::size_t frame, const Scene& shown, const RuntimeVolume& volume, PictureRanges& ranges,
+                      const DrawRequest& draw_it);
 
     /** What all pictures that were drawn so far do not show, a sentence each. */
-    std::vector<std::string> missed(VolumeRanges& ranges) const;
+    std::vector<std::string> missed(PictureRanges& ranges) const;
 
 private:
     /** A time step and a phase. */
     using Moment = std::pair<std::uint32_t, double>;
 
     static Moment moment_of(const AnimationFrame& frame) { return {frame.time_step, frame.phase.value_or(0)}; }
-    const FrameRequest& request_of(const Scene& scene, Moment moment, const RuntimeVolume& volume, VolumeRanges& ranges);
+    const FrameRequest& request_of(const Scene& scene, Moment moment, const RuntimeVolume& volume, PictureRanges& ranges);
 
     Scene m_scene;
     std::map<Moment, FrameRequest> m_requests;

@@ -9,32 +9,6 @@ namespace {
 
 constexpr std::size_t n_color_channels = 4;
 
-FrameRequest finer(const FrameRequest& request, std::uint32_t n) {
-    FrameRequest fine = request;
-    fine.width *= n;
-    fine.height *= n;
-    fine.with_buffers = false;
-    for (double& shift : fine.camera.image_shift) {
-        shift *= n;
-    }
-    for (Surface& surface : fine.surfaces) {
-        if (surface.contours) {
-            surface.contours->style.width *= n;
-        }
-        if (surface.mesh_lines) {
-            surface.mesh_lines->style.width *= n;
-        }
-        if (surface.lic) {
-            surface.lic->length *= n;
-            surface.lic->grain *= n;
-        }
-        if (auto* const wires = std::get_if<WireFrame>(&surface.geometry)) {
-            wires->width *= n;
-        }
-    }
-    return fine;
-}
-
 /** Of n by n pixels of a band, from the first of them on. */
 std::array<double, n_color_channels> mean(const Frame& band, std::size_t row, std::size_t column, std::uint32_t n) {
     std::array<double, n_color_channels> sum{};
@@ -64,20 +38,48 @@ std::uint32_t fine_rows(std::span<Renderer* const> renderers, const FrameRequest
 
 } // namespace
 
+FrameRequest finer(const FrameRequest& request, std::uint32_t n) {
+    FrameRequest fine = request;
+    fine.width *= n;
+    fine.height *= n;
+    fine.with_buffers = false;
+    for (double& shift : fine.camera.image_shift) {
+        shift *= n;
+    }
+    for (Surface& surface : fine.surfaces) {
+        if (surface.contours) {
+            surface.contours->style.width *= n;
+        }
+        if (surface.mesh_lines) {
+            surface.mesh_lines->style.width *= n;
+        }
+        if (surface.lic) {
+            surface.lic->length *= n;
+            surface.lic->grain *= n;
+        }
+        if (auto* const wires = std::get_if<WireFrame>(&surface.geometry)) {
+            wires->width *= n;
+        }
+    }
+    return fine;
+}
+
+void take_means(const Frame& fine, const Rows& rows, std::uint32_t n, std::vector<double>& color) {
+    const std::size_t width = fine.width / n;
+    for (std::uint32_t row = rows.first / n; row < rows.end / n; ++row) {
+        for (std::size_t column = 0; column < width; ++column) {
+            const std::array<double, n_color_channels> own = mean(fine, row * n - rows.first, column * n, n);
+            std::copy(own.begin(), own.end(), &color[n_color_channels * (row * width + column)]);
+        }
+    }
+}
+
 SupersampledColors supersampled(std::span<Renderer* const> renderers, const FrameRequest& request, std::uint32_t n,
                                 const TaskControl* control) {
     const FrameRequest fine = finer(request, n);
     SupersampledColors result;
     result.color.resize(n_color_channels * request.width * request.height);
-    const auto take = [&](const Frame& band, const Rows& rows) {
-        for (std::uint32_t row = rows.first / n; row < rows.end / n; ++row) {
-            for (std::size_t column = 0; column < request.width; ++column) {
-                const std::array<double, n_color_channels> color = mean(band, row * n - rows.first, column * n, n);
-                std::copy(color.begin(), color.end(),
-                          &result.color[n_color_channels * (std::size_t{row} * request.width + column)]);
-            }
-        }
-    };
+    const auto take = [&](const Frame& band, const Rows& rows) { take_means(band, rows, n, result.color); };
     const Frame work = render_bands(renderers, fine, fine_rows(renderers, fine, n), control, take);
     result.render_milliseconds = work.render_milliseconds;
     result.device_milliseconds = work.device_milliseconds;

@@ -12,16 +12,22 @@
 
 namespace elvis {
 
+/** Of a request, the picture with n by n pixels for each: lines are n times as wide. */
+FrameRequest finer(const FrameRequest& request, std::uint32_t n);
+
+/**
+ * Of some rows of that picture, whole rows of the coarse one, the means: in the colours that are displayed; what is transparent
+ * counts by how opaque it is. Into the coarse picture's colours.
+ */
+void take_means(const Frame& fine, const Rows& rows, std::uint32_t n, std::vector<double>& color);
+
 struct SupersampledColors {
     /** As Frame::color, of the request's size. */
     std::vector<double> color;
     double render_milliseconds = 0, device_milliseconds = 0;
 };
 
-/**
- * Draws n by n pixels for each of the request's, and takes their mean, in the colours that are displayed; what is transparent
- * counts by how opaque it is. Lines are n times as wide. In bands: the fine picture is never in memory as a whole.
- */
+/** Draws the finer picture, and takes the means. In bands: it is never in memory as a whole. */
 SupersampledColors supersampled(std::span<Renderer* const> renderers, const FrameRequest& request, std::uint32_t n,
                                 const TaskControl* control);
 

@@ -37,6 +37,15 @@ const NamedKeys plane_pictures[] = {
         "camera": {"eye": [0.4, 0.3, 1], "look_at": [0.4, 0.35, 0], "up": [0, 1, 0], "type": "orthographic", "height": 0.2})"},
 };
 
+/** Of the field sinc. */
+const NamedKeys isosurface_pictures[] = {
+    {"another colour, a plane, a boundary",
+     R"("surfaces": [{"type": "isosurface", "values": [0.2], "color_field": "2 * sinc + x", "color_map": {"range": [-1, 3]}},
+                     {"type": "plane", "plane": [0.3, -0.5, 0.8, 0.3]}, {"type": "boundary", "groups": ["z-"]}])"},
+    {"several, transparent", R"("surfaces": [{"type": "isosurface", "values": [-0.15, 0.2], "opacity": 0.5}])"},
+    {"by projection", R"("surfaces": [{"type": "isosurface", "values": [-0.15, 0.2], "method": "bernstein"}])"},
+};
+
 void compare(const char* volume, DemandStage& stage, const NamedKeys& picture, const MemoryBudget& budget = unlimited) {
     const Scene scene = stage.scene(picture.keys);
     const Frame whole = stage.as_whole(scene);
@@ -102,15 +111,35 @@ TEST_CASE("Planes through every shape show the same bits in both precisions", "[
     }
 }
 
+TEST_CASE("Several samples a pixel are the same bits whether all elements are there or those that they need") {
+    DemandStage stage(all_volumes[3].description);
+    compare(all_volumes[3].name, stage,
+            {"three by three samples",
+             R"("image": {"size": [80, 60], "samples": 3}, "mesh_lines": {},
+                "surfaces": [{"type": "plane", "plane": [0.3, -0.5, 0.8, 0.05]}])"});
+}
+
 TEST_CASE("What needs all elements is drawn where they fit, and refused with figures where not") {
     DemandStage stage(all_volumes[1].description);
-    const Scene scene = stage.scene(R"("surfaces": [{"type": "isosurface", "values": [0.5]}])");
+    const Scene scene = stage.scene(R"("surfaces": [{"type": "sphere", "center": [0, 0, 0], "radius": 0.6}])");
     const Frame whole = stage.as_whole(scene);
     stage.forget_whole();
     CHECK(differences(whole, stage.within({std::uint64_t{1} << 30, {}}, scene)).empty());
     CHECK(stage.work.n_on_device == stage.work.n_elements);
-    CHECK_THROWS_WITH(stage.within({std::uint64_t{1} << 20, {}}, scene),
-                      Catch::Contains("an isosurface needs all") && Catch::Contains("and the budget is 1024 KiB"));
+    const NamedKeys others[] = {
+        {"a surface that is no plane, boundary or isosurface",
+         R"("surfaces": [{"type": "sphere", "center": [0, 0, 0], "radius": 0.6}])"},
+        {"an isosurface of an expression",
+         R"("surfaces": [{"type": "isosurface", "values": [0.5], "field": "jump + x"}], "color_map": {"range": [-1, 1]})"},
+        {"an isosurface with lines on it", R"("surfaces": [{"type": "isosurface", "values": [0.5]}], "mesh_lines": {})"},
+        {"an isosurface for which no elements are skipped",
+         R"("surfaces": [{"type": "isosurface", "values": [0.5], "range_skipping": false}])"},
+    };
+    for (const NamedKeys& other : others) {
+        CHECK_THROWS_WITH(stage.within({std::uint64_t{1} << 20, {}}, stage.scene(other.keys)),
+                          Catch::Contains(std::string(other.name) + " needs all") &&
+                              Catch::Contains("and the budget is 1024 KiB"));
+    }
 }
 
 TEST_CASE("Boundaries show the same bits whether all elements are there or those that they need") {
@@ -128,6 +157,32 @@ TEST_CASE("Boundaries show the same bits whether all elements are there or those
             compare(all_volumes[0].name, stage, picture);
         }
     }
+}
+
+TEST_CASE("Isosurfaces show the same bits whether all elements are there or those that may hold an isovalue") {
+    DemandStage tetrahedra(all_volumes[5].description);
+    compare(all_volumes[5].name, tetrahedra, isosurface_pictures[0]);
+    DemandStage hexahedra(all_volumes[3].description, Precision::float64);
+    compare(all_volumes[3].name, hexahedra, isosurface_pictures[1]);
+    // In faces, in which rounding alone tells in which of two elements an isovalue is taken.
+    DemandStage in_faces(
+        R"({"generator":1,"mesh":"box","shape":"hexahedron","box":[[-1,-1,-1],[1,1,1]],"elements":[8,8,8],"order":2,"geometry_order":1,"field":"polynomial","coefficients":[[1,0,0,0.3],[2,0,0,0.1]]})");
+    compare("hexahedra", in_faces, {"in faces", R"("surfaces": [{"type": "isosurface", "values": [0]}])"});
+}
+
+TEST_CASE("Isosurfaces in every shape show the same bits in both precisions", "[.long]") {
+    for (const std::size_t of_sinc : {0u, 3u, 5u}) {
+        const NamedVolume& volume = all_volumes[of_sinc];
+        for (const Precision precision : {Precision::float32, Precision::float64}) {
+            DemandStage stage(volume.description, precision);
+            for (const NamedKeys& picture : isosurface_pictures) {
+                compare(volume.name, stage, picture);
+            }
+        }
+    }
+    DemandStage vectors(all_volumes[4].description);
+    compare(all_volumes[4].name, vectors,
+            {"length of a vector", R"("surfaces": [{"type": "isosurface", "values": [0.6], "field": "velocity"}])"});
 }
 
 TEST_CASE("Planes that do not fit a budget are drawn in bands, to the same bits") {

@@ -44,6 +44,17 @@ class Pictures(WithVolume):
         again = elvis.Scene.read(self.path("scene.json"))
         np.testing.assert_array_equal(again.render().color, scene.render().color)
 
+    def test_a_picture_within_a_budget_of_memory_is_the_same(self):
+        scene = self.scene()
+        whole = scene.render()
+        scene.memory = {"device": "1G"}
+        within = scene.render()
+        for channel in "color", "value", "depth", "element", "flags":
+            np.testing.assert_array_equal(getattr(within, channel), getattr(whole, channel))
+        scene.memory.device = "64K"
+        with self.assertRaisesRegex(elvis.Error, "the budget is 64 KiB"):
+            scene.render()
+
     def test_pdf_has_the_pixels_of_the_picture_without_annotation(self):
         scene = self.scene()
         scene.image.size = [200, 150]

@@ -39,7 +39,7 @@ const std::vector<std::string>& documents() {
         R"json({"version": 1,
             "volume": {"path": "data/ball.h5", "more_paths": ["data/ball.gf"], "plugin": "org.elvis.native", "options": {"a": [1, 2.5]}, "time_step": 3,
                        "joined": [{"name": "b", "path": "data/b.mesh", "more_paths": ["data/b.gf"], "plugin": "org.b", "options": {"c": 1}, "time_step": 2}, {"name": "before", "time_step": 0}]},
-            "field": "norm(curl(u))", "precision": "float64",
+            "field": "norm(curl(u))", "precision": "float64", "memory": {"device": "2G", "host": "1536M"},
             "camera": {"type": "orthographic", "eye": [1.0, 2.0, 0.1], "look_at": [0.25, 0.0, 0.0], "up": [0.0, 0.0, 1.0],
                        "field_of_view": 33.3, "height": 4.5, "near": 0.125, "image_shift": [0.5, -0.25]},
             "image": {"size": [640, 480], "samples": 3, "background": [0.1, 0.2, 0.3, 0.4],

@@ -106,8 +106,9 @@ class ItemsTest(BrowserCase):
                               "volume_rendering": {"visible": False, "opacity": [[0, 0], [1, 0.5]], "integrator": "riemann",
                                                    "color_map": {"points": [[0, 1, 1, 1], [1, 0, 0, 0]]}}})
         found |= self.places({"volume_rendering": {"visible": False, "transfer": whole}})
-        # A list, a button or the page's size says these; the volume is what is served; a scene says the rest in another way, too.
-        others = re.compile(r"/(version|volume(/.*)?|isosurfaces(/.*)?|image/size|camera/type|views/\*/camera(/.*)?|lighting/lights(/\*/type|/\*/visible)?"
+        # A list, a button or the page's size says these; the volume is what is served; what the page shows has no budget of memory; a scene says
+        # the rest in another way, too.
+        others = re.compile(r"/(version|volume(/.*)?|memory(/.*)?|isosurfaces(/.*)?|image/size|camera/type|views/\*/camera(/.*)?|lighting/lights(/\*/type|/\*/visible)?"
                             r"|surfaces(/\*/(type|visible|point|normal))?|volumes/\*/(path|more_paths|plugin|options)|views|image|camera"
                             r"|volume_rendering(/visible|/peaks)?|.*color_map/name)")
         missing = [place for place in key_places(schema, schema) if place not in found and not others.fullmatch(place)]

@@ -3,6 +3,7 @@
 #include <apps/elvis/number_list.hpp>
 
 #include <core/base/error.hpp>
+#include <core/base/memory_budget.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 namespace elvis::commands {
@@ -365,6 +367,19 @@ void apply_warp(const WarpArguments& warp, Document& scene) {
     scene.set("/warp", said);
 }
 
+void apply_budget(const RenderArguments& arguments, Document& scene) {
+    for (const auto& [option, key, size] : {std::tuple{"--device-memory", "/memory/device", &arguments.device_memory},
+                                            std::tuple{"--host-memory", "/memory/host", &arguments.host_memory}}) {
+        if (size->empty()) {
+            continue;
+        }
+        if (!bytes_of_size(*size)) {
+            throw UsageError(option, no_size_text(*size));
+        }
+        scene.set(key, *size);
+    }
+}
+
 void apply_image(const RenderArguments& arguments, Document& scene) {
     if (arguments.samples > 0) {
         scene.set("/image/samples", arguments.samples);
@@ -410,6 +425,7 @@ void apply_options(const RenderArguments& arguments, scene& shown) {
     apply_color_map(arguments, document);
     apply_camera(arguments, document);
     apply_image(arguments, document);
+    apply_budget(arguments, document);
     if (!arguments.precision.empty()) {
         document.set("/precision", arguments.precision);
     }

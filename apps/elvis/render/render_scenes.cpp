@@ -2,7 +2,6 @@
 #include "output_endings.hpp"
 #include "part_choice.hpp"
 #include "render_animation.hpp"
-#include "render_on_demand.hpp"
 #include "render_parts.hpp"
 #include "render_session.hpp"
 #include "say_remarks.hpp"
@@ -39,8 +38,8 @@ struct Wanted {
 void check_names(const Wanted& wanted) {
     const RenderArguments& arguments = wanted.arguments;
     if (!wanted.is_animation) {
-        !arguments.parts.empty() || has_budget(arguments) ? need_picture_ending("--output", arguments.output)
-                                                          : need_still_ending("--output", arguments.output);
+        arguments.parts.empty() ? need_still_ending("--output", arguments.output)
+                                : need_picture_ending("--output", arguments.output);
     }
     if (!arguments.buffers.empty()) {
         need_hdf5_ending("--buffers", arguments.buffers);
@@ -87,6 +86,23 @@ bool is_scene(const context& library, const std::string& input) {
     return fs::exists(input) && json::parse(library.describe_file(input))["kind"] == "scene";
 }
 
+/** What does not go with a budget of memory, which an option or the scene gives. */
+void check_budget(const Wanted& wanted) {
+    const RenderArguments& arguments = wanted.arguments;
+    if (!json::parse(wanted.shown.json()).contains("memory")) {
+        return;
+    }
+    for (const auto& [other, is_given] :
+         {std::pair{"--parts", !arguments.parts.empty()}, std::pair{"--devices", !arguments.devices.empty()},
+          std::pair{"--range in percent", percentiles_of(arguments).has_value()}}) {
+        if (is_given) {
+            const std::string option = arguments.device_memory.empty() ? "--host-memory" : "--device-memory";
+            const bool is_by_option = !arguments.device_memory.empty() || !arguments.host_memory.empty();
+            throw UsageError(is_by_option ? option : "'memory' of the scene", std::string("does not go with ") + other);
+        }
+    }
+}
+
 Wanted read_wanted(const context& library, const RenderArguments& all, const std::string& input) {
     RenderArguments arguments = all;
     arguments.input = input;
@@ -102,7 +118,7 @@ Wanted read_wanted(const context& library, const RenderArguments& all, const std
         check_animation(wanted.arguments);
     }
     check_parts(wanted.arguments, is_animation);
-    check_budget(wanted.arguments, is_animation);
+    check_budget(wanted);
     check_names(wanted);
     if (wanted.shown.volume().empty()) {
         throw Error(input, "'volume' is missing");
@@ -251,8 +267,6 @@ void render_scenes(const RenderArguments& arguments) {
         }
         if (!arguments.parts.empty()) {
             render_parts(wanted.arguments, wanted.shown);
-        } else if (has_budget(wanted.arguments)) {
-            render_on_demand(wanted.arguments, wanted.shown);
         } else {
             render_one(wanted, session, {}, start);
         }

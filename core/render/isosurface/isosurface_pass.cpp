@@ -63,6 +63,14 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
     return *kernel;
 }
 
+void IsosurfacePass::ClassKernels::follow_room(const IsovalueSet& set) {
+    if (set.room(element_class) > room) {
+        kernels = {};
+        octants = set.octant_buffers(element_class);
+        room = set.room(element_class);
+    }
+}
+
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
       m_rows(rows_an_invocation(device, 4, 1)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
@@ -75,7 +83,6 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
         ClassKernels kernels;
         KernelRequest& request = kernels.request;
         request.precision = m_precision;
-        kernels.octants = m_isovalue_set.octant_buffers(index);
         kernels.elements = m_isovalue_set.element_buffers(index);
         request.buffers = {data.elements(index)};
         data.add_field(request, index, true);
@@ -92,21 +99,26 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
     }
 }
 
-void IsosurfacePass::choose(const Isosurfaces& wanted, double offset, const ShownComponent& component) {
+void IsosurfacePass::choose(const Isosurfaces& wanted, std::uint32_t time_step, double offset,
+                            const ShownComponent& component) {
     m_values = wanted.values;
     for (double& value : m_values) {
         value -= offset;
     }
     m_component = {component.first(), component.end()};
-    m_isovalue_set.choose(m_values, m_component, wanted.skips_by_range);
+    std::optional<ToldField> told;
+    if (!wanted.field.expression && !wanted.field.is_own_boundary) {
+        told = {wanted.field.field, wanted.field.component, time_step, offset};
+    }
+    m_isovalue_set.choose(m_values, m_component, wanted.skips_by_range, told);
     m_method = wanted.method;
     m_degree = wanted.degree;
     for (ClassKernels& kernels : m_kernels) {
-        if (m_method != IsosurfaceMethod::interval) {
-            break;
+        kernels.follow_room(m_isovalue_set);
+        if (m_method == IsosurfaceMethod::interval) {
+            kernels.provide(m_device, Role::tiles, m_values.size() == 1);
+            kernels.provide(m_device, Role::pixels, m_values.size() == 1);
         }
-        kernels.provide(m_device, Role::tiles, m_values.size() == 1);
-        kernels.provide(m_device, Role::pixels, m_values.size() == 1);
     }
 }
 

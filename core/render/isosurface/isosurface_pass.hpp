@@ -27,7 +27,7 @@ public:
     IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data);
 
     /** What the next pictures show; the field lacks `offset` on the device. See IsovalueSet::choose. */
-    void choose(const Isosurfaces& wanted, double offset, const ShownComponent& component);
+    void choose(const Isosurfaces& wanted, std::uint32_t time_step, double offset, const ShownComponent& component);
 
     /**
      * Draws the nearest crossing of each ray; each class is a surface of its own, numbered from `first_surface`. Samples get
@@ -48,6 +48,8 @@ private:
         KernelRequest request;
         /** What intervals are looked for in, and projection. */
         std::vector<FetchBuffer> octants, elements;
+        /** IsovalueSet::room(), for which kernels are composed. */
+        std::uint64_t room = 0;
         std::uint32_t element_class = 0;
         /** Kept from frame to frame: tiles with their octants, and which of them see something. */
         std::optional<Buffer> tiles;
@@ -56,6 +58,8 @@ private:
         std::array<std::array<std::unique_ptr<ComposedKernel>, 2>, 3> kernels;
 
         const ComposedKernel& provide(const Device& device, Role role, bool has_one_isovalue);
+        /** Drops kernels that were composed with less room. */
+        void follow_room(const IsovalueSet& set);
     };
 
     std::vector<TileList::Ranges> list_tiles(const Layer& layer, const TileRows& wanted);

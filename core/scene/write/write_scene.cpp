@@ -86,6 +86,17 @@ SceneJson warp_json(const SceneWarp& warp) {
     return json;
 }
 
+SceneJson memory_json(const MemoryBudget& memory) {
+    SceneJson json = SceneJson::object();
+    if (memory.device) {
+        json["device"] = size_text(*memory.device);
+    }
+    if (memory.host) {
+        json["host"] = size_text(*memory.host);
+    }
+    return json;
+}
+
 SceneJson image_json(const Scene& scene, const std::string& path) {
     SceneJson json;
     json["size"] = scene.size;
@@ -130,6 +141,9 @@ SceneJson scene_json(const Scene& scene, const std::string& path) {
     set(json, "threshold", scene.threshold);
     if (scene.precision) {
         json["precision"] = name_of(*scene.precision);
+    }
+    if (scene.memory) {
+        json["memory"] = memory_json(*scene.memory);
     }
     if (const SceneJson camera = camera_json(scene.camera); !camera.empty()) {
         json["camera"] = camera;

@@ -22,8 +22,9 @@ constexpr std::uint32_t octant_is_estimated = 0x80000000u;
 constexpr std::uint32_t most_levels = 3;
 /** Of octants whose mapping is bent so much that it has no linear model. */
 constexpr std::uint32_t most_bent_levels = 6;
-/** Octants for which there is room where there are fewer elements; and of each element that is bent more than this. */
+/** Octants for which there is room from the beginning; that are enough for any picture; and of each element that is bent. */
 constexpr std::uint64_t least_room = 1u << 17, most_room = 1u << 20, room_of_bent_element = 4096;
+/** Of elements that are not bent. */
 constexpr float small_curvature = 0.25f;
 /**
  * Elements are divided where their error is more than this share of how much the field varies in them, octants where it is more
@@ -36,19 +37,12 @@ struct OctantParameters {
     std::uint32_t first_component, end_component;
 };
 
-bool holds_any(double lower, double upper, std::span<const double> isovalues) {
-    const auto first = std::lower_bound(isovalues.begin(), isovalues.end(), lower);
-    // A range that is no number, as of an element with such values, says nothing.
-    return !(lower <= upper) || (first != isovalues.end() && *first <= upper);
-}
-
-/** Octants for which there is room. */
-std::uint64_t room_for(std::span<const float> curvatures, std::uint64_t n_elements) {
-    const auto n_bent = std::count_if(curvatures.begin(), curvatures.end(), [](float c) { return !(c <= small_curvature); });
-    return std::max(n_elements, std::clamp(static_cast<std::uint64_t>(n_bent) * room_of_bent_element, least_room, most_room));
-}
-
 } // namespace
+
+std::uint64_t most_isosurface_octants(std::uint64_t n_elements, std::uint64_t n_bent) {
+    const std::uint64_t wanted = std::max(8 * n_elements, room_of_bent_element * n_bent);
+    return std::max(n_elements, std::clamp(wanted, least_room, most_room));
+}
 
 /** As the kernel gives them. */
 struct IsovalueSet::Octants {
@@ -58,7 +52,7 @@ struct IsovalueSet::Octants {
     std::uint32_t word(std::size_t octant, std::size_t index) const { return words[octant * octant_words + index]; }
     float number(std::size_t octant, std::size_t index) const { return std::bit_cast<float>(word(octant, index)); }
     bool holds_any(std::size_t octant, std::span<const double> isovalues) const {
-        return elvis::holds_any(number(octant, octant_range), number(octant, octant_range + 1), isovalues);
+        return elvis::holds_any({number(octant, octant_range), number(octant, octant_range + 1)}, isovalues);
     }
     bool is_linear(std::size_t octant) const { return number(octant, octant_scale) > 0; }
     /** Whether an octant of this level is to be divided. */
@@ -81,7 +75,7 @@ struct IsovalueSet::Octants {
 };
 
 IsovalueSet::IsovalueSet(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
-    : m_device(device), m_volume(volume), m_precision(data.precision()), m_centre(data.centre()),
+    : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_centre(data.centre()),
       m_models(device, volume, data), m_classes(volume.classes().size()) {
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         const std::uint64_t n_elements = volume.classes()[index].n_elements;
@@ -92,11 +86,7 @@ IsovalueSet::IsovalueSet(const Device& device, const RuntimeVolume& volume, cons
         // Room for all elements, so that kernels composed with it stay valid.
         of_class.nodes =
             std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * n_elements - 1, node_size);
-        of_class.room = room_for(data.curvatures(index), n_elements);
-        of_class.octant_nodes =
-            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), 2 * of_class.room - 1, node_size);
-        of_class.octants =
-            std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), of_class.room, octant_size);
+        make_room(of_class, least_room);
         KernelRequest request;
         request.name = "octants of element class " + std::to_string(index);
         request.kernel = "isosurface/octants.comp";
@@ -109,17 +99,38 @@ IsovalueSet::IsovalueSet(const Device& device, const RuntimeVolume& volume, cons
     }
 }
 
-void IsovalueSet::choose(std::span<const double> isovalues, const ScalarComponent& component, bool skips_by_range) {
-    if (component != m_component) {
-        m_component = {0, 0};
-        m_is_chosen = false;
-        std::vector<std::vector<ModelRange>> ranges;
-        m_models.provide(component, &ranges);
-        for (std::size_t index = 0; index < m_classes.size(); ++index) {
-            m_classes[index].ranges = std::move(ranges[index]);
-        }
-        m_component = component;
+/** For so many octants, at least. */
+void IsovalueSet::make_room(ClassOctants& of_class, std::uint64_t n_octants) const {
+    if (n_octants > of_class.room) {
+        of_class.room = std::bit_ceil(n_octants);
+        of_class.octant_nodes =
+            std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, 2 * of_class.room - 1, node_size);
+        of_class.octants = std::make_unique<RecordBuffer>(m_device, RecordKind::uint, m_precision, of_class.room, octant_size);
     }
+}
+
+void IsovalueSet::provide_ranges(const ScalarComponent& component, const std::optional<ToldField>& told) {
+    if (component == m_component) {
+        return;
+    }
+    m_component = {0, 0};
+    m_is_chosen = false;
+    std::vector<std::vector<ModelRange>> ranges;
+    m_models.provide(component, &ranges);
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        m_classes[index].ranges = std::move(ranges[index]);
+        m_classes[index].told.clear();
+        if (told) {
+            m_classes[index].told =
+                told_ranges(m_device.background(), m_volume, index, *told, [this] { m_device.check_task(); });
+        }
+    }
+    m_component = component;
+}
+
+void IsovalueSet::choose(std::span<const double> isovalues, const ScalarComponent& component, bool skips_by_range,
+                         const std::optional<ToldField>& told) {
+    provide_ranges(component, told);
     Choice choice{std::vector<double>(isovalues.begin(), isovalues.end()), skips_by_range};
     if (m_is_chosen && choice == m_choice) {
         return;
@@ -127,7 +138,7 @@ void IsovalueSet::choose(std::span<const double> isovalues, const ScalarComponen
     m_is_chosen = false;
     m_choice = std::move(choice);
     std::vector<double> all;
-    for (std::size_t index = 0; index < m_classes.size(); ++index) {
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
         const ClassInfo& info = m_volume.classes()[index];
         ClassOctants& of_class = m_classes[index];
         of_class.chosen.clear();
@@ -139,17 +150,26 @@ void IsovalueSet::choose(std::span<const double> isovalues, const ScalarComponen
             all.resize(6 * count);
             m_volume.bounds(info.first_element + first, count, all);
             for (std::uint64_t i = 0; i < count; ++i) {
-                const ModelRange& range = of_class.ranges[first + i];
-                if (!may_skip(range) || holds_any(range.lower, range.upper, m_choice.isovalues)) {
+                if (is_wanted(of_class, first + i)) {
                     of_class.chosen.push_back(static_cast<std::uint32_t>(first + i));
                     const auto box = all.begin() + static_cast<std::ptrdiff_t>(6 * i);
                     of_class.boxes.insert(of_class.boxes.end(), box, box + 6);
                 }
             }
         }
+        const auto n_bent = std::ranges::count_if(
+            of_class.chosen, [&](std::uint32_t element) { return !(m_data.curvatures(index)[element] <= small_curvature); });
+        of_class.most = most_isosurface_octants(of_class.chosen.size(), static_cast<std::uint64_t>(n_bent));
     }
     make_octants();
     m_is_chosen = true;
+}
+
+bool IsovalueSet::is_wanted(const ClassOctants& of_class, std::uint64_t element) const {
+    const ModelRange& range = of_class.ranges[element];
+    const bool is_excluded =
+        m_choice.skips_by_range && !of_class.told.empty() && !holds_any(of_class.told[element], m_choice.isovalues);
+    return !is_excluded && (!may_skip(range) || holds_any({range.lower, range.upper}, m_choice.isovalues));
 }
 
 bool IsovalueSet::may_skip(const ModelRange& range) const {
@@ -245,7 +265,7 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape, Octant
                 undivided.add(octants, i);
             }
         }
-        if (wanted.empty() || wanted.size() / 2 > 2 * of_class.room) {
+        if (wanted.empty() || wanted.size() / 2 > 2 * of_class.most) {
             break;
         }
         const Octants candidates{ahead(wanted)};
@@ -255,7 +275,7 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape, Octant
                 divided.add(candidates, i);
             }
         }
-        if (done.size() + undivided.size() + divided.size() > of_class.room) {
+        if (done.size() + undivided.size() + divided.size() > of_class.most) {
             break;
         }
         done.append(undivided);
@@ -298,6 +318,7 @@ void IsovalueSet::write_octants(ClassOctants& of_class, std::span<const std::uin
     if (octants.size() == 0) {
         return;
     }
+    make_room(of_class, octants.size());
     of_class.octants->write_uints(0, records);
     const Hierarchy hierarchy(boxes, m_centre);
     of_class.octant_nodes->write_uints(0, node_words(hierarchy.nodes()));

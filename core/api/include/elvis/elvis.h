@@ -445,6 +445,10 @@ typedef struct elvis_render_options {
  * Draws the scene's still picture of the data; its "animation" and "volume" are not looked at. Kernels and buffers stay with
  * the data: the next picture of the kind costs the device's work alone. `options` may be NULL. Released by
  * elvis_picture_release.
+ *
+ * Of a scene with "memory", only elements that the picture needs are read and uploaded, and nothing of them stays; what does
+ * not fit is an error (budgets.md). So it is with the pictures of its animation. The device's memory is that of all data of the
+ * context. Pictures for screens and picked points are as if the scene did not say it.
  */
 ELVIS_EXPORT elvis_result elvis_render(elvis_data* data, const elvis_scene* scene, const elvis_render_options* options,
                                        const elvis_task* task, elvis_picture** picture);
