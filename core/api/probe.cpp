@@ -73,8 +73,11 @@ private:
     std::uint64_t m_at = 0;
 };
 
-/** Points that are asked for at once: many in each element, some 40 MB, and little time until a task is stopped. */
-constexpr std::uint64_t n_points_a_block = 1u << 17;
+/**
+ * Points that are asked for at once: few at first, so that a task soon says how far it is; then each time twice as many, until
+ * many are in each element, which takes some 40 MB.
+ */
+constexpr std::uint64_t least_block = 1u << 13, most_block = 1u << 17;
 
 void probe_all(Data& data, const elvis_probe& probe) {
     check_time_step(data.volume, probe.time_step);
@@ -86,10 +89,11 @@ void probe_all(Data& data, const elvis_probe& probe) {
     Prober& prober = data.prober(static_cast<ProbeOptions::Evaluation>(probe.evaluation));
     Writer writer(probe, columns);
     std::vector<Vector3> positions;
-    for (std::uint64_t first = 0; first < probe.n_points; first += n_points_a_block) {
+    for (std::uint64_t first = 0, block = least_block; first < probe.n_points;
+         first += block, block = std::min(2 * block, most_block)) {
         data.control->check();
         data.control->progress(static_cast<double>(first) / static_cast<double>(probe.n_points), "probing");
-        const std::uint64_t n = std::min(n_points_a_block, probe.n_points - first);
+        const std::uint64_t n = std::min(block, probe.n_points - first);
         positions.clear();
         for (std::uint64_t point = first; point < first + n; ++point) {
             positions.push_back({probe.positions[3 * point], probe.positions[3 * point + 1], probe.positions[3 * point + 2]});
