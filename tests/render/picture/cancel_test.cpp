@@ -125,7 +125,7 @@ TEST_CASE("after a cancelled picture the next one is the same as ever") {
         }
         WARN(name << ": " << whole << " ms, stops within " << longest << " ms");
         // Far more than parts take, for machines that do other work.
-        CHECK(longest < 1000);
+        CHECK(longest < 10000);
     }
     CHECK(n_cancelled >= 20);
 }
