@@ -16,15 +16,20 @@ using elvis::test::convert;
 using elvis::test::own_plugins;
 using elvis::test::TemporaryFolder;
 
+elvis::scene with_plane(const elvis::context& context) {
+    elvis::scene scene = context.make_scene();
+    scene.set("/image/size", "[64, 48]");
+    scene.set("/surfaces/-", R"({"type": "plane", "plane": [0, 0, 1, -0.1]})");
+    return scene;
+}
+
 } // namespace
 
 TEST_CASE("A scene with a budget of memory is the same picture, and its statistics tell what it took") {
     const elvis::context context(own_plugins());
     const TemporaryFolder folder;
     const elvis::data data = context.open(convert(context, folder));
-    elvis::scene scene = context.make_scene();
-    scene.set("/image/size", "[64, 48]");
-    scene.set("/surfaces/-", R"({"type": "plane", "plane": [0, 0, 1, -0.1]})");
+    elvis::scene scene = with_plane(context);
     scene.set("/surfaces/-", R"({"type": "isosurface", "values": [1.2]})");
     const elvis::picture whole = data.render(scene);
     CHECK_THAT(whole.stats(), !Contains("elements_on_device"));
@@ -46,9 +51,7 @@ TEST_CASE("Frames within a budget of memory are the same pictures, each with its
     const elvis::context context(own_plugins());
     const TemporaryFolder folder;
     const elvis::data data = context.open(convert(context, folder));
-    elvis::scene scene = context.make_scene();
-    scene.set("/image/size", "[64, 48]");
-    scene.set("/surfaces/-", R"({"type": "plane", "plane": [0, 0, 1, -0.1]})");
+    elvis::scene scene = with_plane(context);
     scene.set("/animation", R"({"turntable": {"frames": 2}})");
     const elvis::animation whole = data.animate(scene);
     scene.set("/memory/device", "\"1G\"");

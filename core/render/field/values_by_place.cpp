@@ -77,15 +77,18 @@ std::optional<ReferencePoint> ValuesByPlace::place_in(std::uint32_t number, cons
 void ValuesByPlace::mark_jumps(const FieldChoice& field, std::uint32_t time_step, const Rounding& rounding,
                                std::span<const ReferencePoint> points, std::span<std::uint8_t> jumps) {
     const std::vector<std::uint32_t> fields = field.expression ? field.expression->fields() : std::vector{field.field};
-    in_parts(m_background, points.size(), points_a_thread, [&](std::uint64_t first, std::uint64_t count) {
-        for (std::uint64_t i = first; i < first + count; ++i) {
-            jumps[i] = std::ranges::any_of(fields, [&](std::uint32_t index) {
-                return m_volume.fields()[index].is_by_place &&
-                       m_volume.jump_by_place(index, time_step, points[i].element, points[i].xi, rounding.reach) >
-                           rounding.value;
-            });
-        }
-    });
+    in_parts(
+        m_background, points.size(), points_a_thread,
+        [&](std::uint64_t first, std::uint64_t count) {
+            for (std::uint64_t i = first; i < first + count; ++i) {
+                jumps[i] = std::ranges::any_of(fields, [&](std::uint32_t index) {
+                    return m_volume.fields()[index].is_by_place &&
+                           m_volume.jump_by_place(index, time_step, points[i].element, points[i].xi, rounding.reach) >
+                               rounding.value;
+                });
+            }
+        },
+        [this] { m_device.check_task(); });
 }
 
 template <class Real>
