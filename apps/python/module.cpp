@@ -106,6 +106,22 @@ private:
     elvis_animation_info m_info;
 };
 
+/** What elvis_lines_read gives. */
+py::dict lines_as_arrays(const traced& found) {
+    const auto n = static_cast<py::ssize_t>(found.times.size());
+    py::dict result;
+    result["first"] = py::array_t<std::uint64_t>(static_cast<py::ssize_t>(found.first.size()), found.first.data());
+    result["begins"] = found.begins;
+    result["ends"] = found.ends;
+    result["positions"] = py::array_t<double>({n, py::ssize_t{3}}, found.positions.data());
+    result["times"] = py::array_t<double>(n, found.times.data());
+    result["arc_lengths"] = py::array_t<double>(n, found.arc_lengths.data());
+    result["elements"] = py::array_t<std::int64_t>(n, found.elements.data());
+    result["xi"] = py::array_t<double>({n, py::ssize_t{3}}, found.xi.data());
+    result["values"] = py::array_t<double>({n, static_cast<py::ssize_t>(found.n_values)}, found.values.data());
+    return result;
+}
+
 class Volume {
 public:
     Volume(context with, data opened) : m_context(std::move(with)), m_data(std::move(opened)) {}
@@ -143,10 +159,7 @@ public:
         if (points.ndim() != 2 || points.shape(1) != 3) {
             throw error(ELVIS_ERROR_INVALID_ARGUMENT, "points: an array of the shape (n, 3) is wanted");
         }
-        std::vector<elvis_string> names;
-        for (const std::string& field : fields) {
-            names.push_back(field.c_str());
-        }
+        const std::vector<elvis_string> names = detail::c_strings(fields);
         std::uint32_t n_values = 0;
         check(elvis_data_count_values(m_data.get(), names.data(), static_cast<std::uint32_t>(names.size()), &n_values));
         const py::ssize_t n_points = points.shape(0);
@@ -176,10 +189,7 @@ public:
     py::dict integrate(std::uint32_t domain, const std::optional<std::string>& field, const std::vector<std::string>& groups,
                        const std::array<double, 4>& plane, const std::optional<std::string>& level_field, double isovalue,
                        bool flux, std::uint32_t time_step, double tolerance, const py::object& progress) const {
-        std::vector<elvis_string> names;
-        for (const std::string& group : groups) {
-            names.push_back(group.c_str());
-        }
+        const std::vector<elvis_string> names = detail::c_strings(groups);
         auto wanted = detail::sized<elvis_integration>();
         wanted.domain = domain;
         wanted.field = field ? field->c_str() : nullptr;
@@ -235,13 +245,7 @@ public:
                      const std::optional<std::string>& contour_field, const std::vector<double>& contours,
                      const std::vector<std::string>& fields, double tolerance, std::uint32_t time_step,
                      const py::object& progress) const {
-        std::vector<elvis_string> group_names, names;
-        for (const std::string& group : groups) {
-            group_names.push_back(group.c_str());
-        }
-        for (const std::string& name : fields) {
-            names.push_back(name.c_str());
-        }
+        const std::vector<elvis_string> group_names = detail::c_strings(groups), names = detail::c_strings(fields);
         auto wanted = detail::sized<elvis_extraction>();
         wanted.domain = domain;
         wanted.groups = group_names.data();
@@ -298,10 +302,7 @@ public:
         if (seeds.ndim() != 2 || seeds.shape(1) != 3) {
             throw error(ELVIS_ERROR_INVALID_ARGUMENT, "seeds: an array of the shape (n, 3) is wanted");
         }
-        std::vector<elvis_string> names;
-        for (const std::string& name : fields) {
-            names.push_back(name.c_str());
-        }
+        const std::vector<elvis_string> names = detail::c_strings(fields);
         auto wanted = detail::sized<elvis_tracing>();
         wanted.time_step = time_step;
         wanted.field = field.c_str();
@@ -321,18 +322,15 @@ public:
         wanted.seed_spacing = seed_spacing;
         traced found;
         run(progress, [&](const task& watch) { found = m_data.trace(wanted, watch); });
-        const auto n = static_cast<py::ssize_t>(found.times.size());
-        py::dict result;
-        result["first"] = py::array_t<std::uint64_t>(static_cast<py::ssize_t>(found.first.size()), found.first.data());
-        result["begins"] = found.begins;
-        result["ends"] = found.ends;
-        result["positions"] = py::array_t<double>({n, py::ssize_t{3}}, found.positions.data());
-        result["times"] = py::array_t<double>(n, found.times.data());
-        result["arc_lengths"] = py::array_t<double>(n, found.arc_lengths.data());
-        result["elements"] = py::array_t<std::int64_t>(n, found.elements.data());
-        result["xi"] = py::array_t<double>({n, py::ssize_t{3}}, found.xi.data());
-        result["values"] = py::array_t<double>({n, static_cast<py::ssize_t>(found.n_values)}, found.values.data());
-        return result;
+        return lines_as_arrays(found);
+    }
+    /** The same of streamlines or pathlines of a scene. */
+    py::dict trace_scene(const std::string& scene_text, const std::string& folder, std::uint32_t surface,
+                         const std::vector<std::string>& fields, const py::object& progress) const {
+        const scene shown = m_context.parse_scene(scene_text, folder);
+        traced found;
+        run(progress, [&](const task& watch) { found = m_data.trace(shown, surface, fields, watch); });
+        return lines_as_arrays(found);
     }
     /** JSON: see elvis_data_walk_line. */
     std::string walk_line(const std::array<double, 3>& from, const std::array<double, 3>& to,
@@ -448,14 +446,7 @@ public:
     std::string convert(const std::vector<std::string>& inputs, const std::string& output, const std::string& plugin,
                         const std::string& plugin_options, const std::vector<std::string>& fields, int order,
                         elvis_continuity continuity, const py::object& progress) const {
-        const auto pointers = [](const std::vector<std::string>& texts) {
-            std::vector<elvis_string> all;
-            for (const std::string& text : texts) {
-                all.push_back(text.c_str());
-            }
-            return all;
-        };
-        const std::vector<elvis_string> input_names = pointers(inputs), field_names = pointers(fields);
+        const std::vector<elvis_string> input_names = detail::c_strings(inputs), field_names = detail::c_strings(fields);
         auto conversion = detail::sized<elvis_conversion>();
         conversion.n_inputs = static_cast<std::uint32_t>(input_names.size());
         conversion.inputs = input_names.data();
@@ -558,6 +549,8 @@ PYBIND11_MODULE(_elvis, module) {
         .def("extract", &Volume::extract, py::arg("domain"), py::arg("groups"), py::arg("plane"), py::arg("level_field"),
              py::arg("isovalue"), py::arg("contour_field"), py::arg("contours"), py::arg("fields"), py::arg("tolerance"),
              py::arg("time_step"), py::arg("progress"))
+        .def("trace_scene", &Volume::trace_scene, py::arg("scene"), py::arg("folder"), py::arg("surface"), py::arg("fields"),
+             py::arg("progress"))
         .def("trace", &Volume::trace, py::arg("field"), py::arg("seeds"), py::arg("direction"), py::arg("fields"),
              py::arg("tolerance"), py::arg("length"), py::arg("time_step"), py::arg("is_unsteady"), py::arg("is_linear"),
              py::arg("start_time"), py::arg("end_time"), py::arg("seed_surface"), py::arg("seed_spacing"), py::arg("progress"))

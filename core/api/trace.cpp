@@ -1,6 +1,8 @@
 #include "call.hpp"
 #include "columns.hpp"
+#include "drawing.hpp"
 
+#include <core/arrows/scene_lines.hpp>
 #include <core/arrows/scene_places.hpp>
 
 #include <nlohmann/json.hpp>
@@ -109,9 +111,9 @@ std::vector<std::vector<double>> values_in_time(const RuntimeVolume& volume, con
     return values;
 }
 
-/** Elements' numbers and the columns' values at the points of all lines. `course`: of pathlines. */
-void look_up(const RuntimeVolume& volume, const Columns& columns, std::uint32_t time_step, const TimeCourse* course,
-             Lines& lines) {
+/** Elements' numbers and the columns' values at the points of all lines of the flow. */
+void look_up(const Flow& flow, const Columns& columns, std::uint32_t time_step, Lines& lines) {
+    const RuntimeVolume& volume = flow.volume();
     std::vector<double> times;
     std::vector<ReferencePoint> points;
     for (const Streamline& line : lines.lines) {
@@ -126,11 +128,29 @@ void look_up(const RuntimeVolume& volume, const Columns& columns, std::uint32_t 
         lines.elements.push_back(numbers[point.element]);
     }
     lines.n_values = columns.n_values;
-    const std::vector<std::vector<double>> found = course != nullptr ? values_in_time(volume, columns, *course, points, times)
-                                                                     : values_at(volume, columns, time_step, points);
+    const std::vector<std::vector<double>> found = flow.is_steady()
+                                                       ? values_at(volume, columns, time_step, points)
+                                                       : values_in_time(volume, columns, *flow.course(), points, times);
     for (const std::vector<double>& values : found) {
         lines.values.insert(lines.values.end(), values.begin(), values.end());
     }
+}
+
+elvis_lines* new_lines(const Data& data, const Flow& flow, std::vector<Streamline> lines, const Columns& columns,
+                       std::uint32_t time_step) {
+    auto found = std::make_unique<elvis_lines>();
+    found->state.context = data.context;
+    found->state.lines = std::move(lines);
+    look_up(flow, columns, time_step, found->state);
+    return found.release();
+}
+
+const SceneStreamlines& lines_wanted(const Scene& scene, std::uint32_t surface) {
+    if (surface >= scene.surfaces.size() || !scene.surfaces[surface].streamlines) {
+        throw InvalidArgument("surface",
+                              std::to_string(surface) + " is not the index of streamlines or pathlines of the scene");
+    }
+    return *scene.surfaces[surface].streamlines;
 }
 
 /** Calls visit(number of the point, the point). */
@@ -193,11 +213,25 @@ elvis_result elvis_data_trace(elvis_data* data, const elvis_tracing* tracing, co
             times = pathline_times(state.volume, options.direction, pathline_options_of(known));
         }
         const Flow flow = is_steady ? Flow(state.volume, known.field, known.time_step) : Flow(state.volume, known.field, times);
-        auto found = std::make_unique<elvis_lines>();
-        found->state.context = state.context;
-        found->state.lines = trace(flow, seeds, options, *state.control);
-        look_up(state.volume, columns, known.time_step, times.course.get(), found->state);
-        *lines = found.release();
+        *lines = new_lines(state, flow, trace(flow, seeds, options, *state.control), columns, known.time_step);
+    });
+}
+
+elvis_result elvis_data_trace_scene(elvis_data* data, const elvis_scene* scene, uint32_t surface, const elvis_string* fields,
+                                    uint32_t n_fields, const elvis_task* task, elvis_lines** lines) {
+    return call(data, [&] {
+        need(lines, "lines");
+        *lines = nullptr;
+        need(scene, "scene");
+        const Scene& said = scene->state.scene;
+        const SceneStreamlines& wanted = lines_wanted(said, surface);
+        need_one_volume(said, "lines");
+        const std::shared_ptr<Data> shown = shown_data(data->state, said, task);
+        check_time_step(shown->volume, said.time_step);
+        const DataTask running(*shown, task);
+        const Columns columns = columns_of(shown->volume, fields, n_fields);
+        SceneLines found = scene_lines(wanted, said, shown->volume, shown->bounds(), *shown->control);
+        *lines = new_lines(*shown, found.flow, std::move(found.lines), columns, said.time_step);
     });
 }
 

@@ -60,6 +60,8 @@ public:
      */
     Flow with_spin() const;
     bool is_steady() const { return !m_times.course; }
+    /** Null if it is steady. */
+    const TimeCourse* course() const { return m_times.course.get(); }
     /** When points are at their seeds; 0 if it is steady. */
     double start() const { return m_times.start; }
     /** What is not told from rounding in times; 0 if it is steady. */

@@ -166,6 +166,14 @@ TEST_CASE("Streamlines come as arrays, with values at their points") {
         CHECK(lines.values[2 * point] == Approx(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]).margin(1e-12));
         CHECK(lines.values[2 * point + 1] == Approx(2 * x[0]).margin(1e-12));
     }
+    scene shown = with_surface(library, R"({"type": "boundary"})", "float32");
+    shown.set("/surfaces/-", R"s({"type": "streamlines", "flow": "grad(x)",
+                                  "seeds": [[0.1, 0.2, 0.3], [7, 0, 0], [-0.4, 0.5, 0.6]]})s");
+    const traced of_scene = volume.trace(shown, 1, {"sphere", "2 * x"});
+    CHECK(of_scene.positions == lines.positions);
+    CHECK(of_scene.values == lines.values);
+    CHECK_THROWS_WITH(volume.trace(shown, 0), Catch::Contains("surface: 0 is not the index of streamlines or pathlines"));
+    CHECK_THROWS_WITH(volume.trace(shown, 2), Catch::Contains("surface: 2 is not"));
     wanted.direction = 3;
     CHECK_THROWS_WITH(volume.trace(wanted), Catch::Contains("direction"));
     // Points and, behind them, nine on a plane.

@@ -98,6 +98,17 @@ class Values(WithVolume):
             seed = line.positions[np.argmin(np.abs(line.arc_lengths))]
             self.assertLess(abs(seed[0]), 1e-12)
 
+    def test_lines_of_a_scene_are_those_that_it_draws(self):
+        scene = self.volume.scene(surfaces=[elvis.Surface(type="boundary"),
+                                            elvis.Surface(type="streamlines", flow="grad(x)", seed_line=[[0, 0, 0], [0, 0.5, 0]], seed_count=3)])
+        lines = self.volume.lines_of(scene, 1, "p")
+        same = self.volume.streamlines("grad(x)", [[0, 0, 0], [0, 0.25, 0], [0, 0.5, 0]], "p")
+        self.assertEqual(len(lines), 3)
+        for line, other in zip(lines, same):
+            np.testing.assert_array_equal(line.positions, other.positions)
+            np.testing.assert_array_equal(line.values["p"], other.values["p"])
+        self.assertRaises(elvis.Error, lambda: self.volume.lines_of(scene, 0))
+
     def test_pathlines_follow_a_rotation_that_gets_faster(self):
         with open(self.path("faster.json"), "w", encoding="utf-8") as file:
             json.dump({"generator": 1, "mesh": "box", "elements": 2, "field": "sphere", "time_steps": 3}, file)
@@ -203,7 +214,7 @@ class Values(WithVolume):
                   np.zeros((2, 2)), np.zeros((1, 3)), np.full((2, 3), np.inf), np.zeros((2, 3), dtype=complex)]
         calls = [self.volume.probe, self.volume.range, self.volume.info, self.volume.scene, self.volume.render, elvis.open,
                  elvis.convert, elvis.Scene.read, elvis.Surface, elvis.from_arrays, elvis.Space, self.volume.update_field, self.volume.animate, self.volume.pick, self.volume.percentiles,
-                 self.volume.complete, self.volume.integrate, self.volume.extract, self.volume.streamlines, self.volume.pathlines,
+                 self.volume.complete, self.volume.integrate, self.volume.extract, self.volume.streamlines, self.volume.pathlines, self.volume.lines_of,
                  self.volume.warp, self.volume.walk_line]
         n_errors = 0
         for _ in range(300):

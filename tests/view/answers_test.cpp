@@ -1,5 +1,6 @@
 // The line probe and the table of numbers, without a window.
 
+#include <apps/elvis/view/model/data_file.hpp>
 #include <apps/elvis/view/model/line_probe.hpp>
 #include <apps/elvis/view/model/numbers.hpp>
 #include <apps/elvis/view/scene/items.hpp>
@@ -177,4 +178,47 @@ TEST_CASE("Streamlines are added, and their seeds are handles") {
     CHECK(flows_of(scalar) == std::vector<std::string>{"grad(pressure)"});
     CHECK(displacements_of(scalar).empty());
     CHECK(displacements_of(flow_facts()) == std::vector<std::string>{"velocity"});
+}
+
+TEST_CASE("Both ends of a line of seeds are handles, and stay apart") {
+    Scene scene = scene_of_files({});
+    const ItemId item = add(scene, flow_facts(), NewItem::streamlines, 0);
+    scene["surfaces"][0]["seed_line"] = {{0, 0, 0.5}, {1, 0, 0.5}};
+    const std::vector<Handle> handles = handles_of(scene, item, flow_facts());
+    REQUIRE(handles.size() == 2);
+    CHECK(handles[1].position == Vector3{1, 0, 0.5});
+    const Scene moved = with_moved_handle(scene, item, flow_facts(), 1, {2, 1, 0.25});
+    CHECK(moved["surfaces"][0]["seed_line"] == Json{{0, 0, 0.5}, {2, 1, 0.25}});
+    CHECK(with_moved_handle(scene, item, flow_facts(), 0, {1, 0, 0.5}) == scene);
+}
+
+TEST_CASE("What is shown can be written, under names that its files have") {
+    Scene scene = scene_of_files({"flow.h5"});
+    scene["surfaces"] = {{{"type", "boundary"}},
+                         {{"type", "isosurface"}, {"values", {0.5, 1}}, {"field", "pressure"}, {"clip", {{1, 0, 0, 0}}}},
+                         {{"type", "plane"}, {"plane", {0, 0, 1, 0}}, {"visible", false}},
+                         {{"type", "streamlines"}, {"flow", "velocity"}, {"field", "pressure"}}};
+    const std::vector<Writable> all = writables_of(scene, flow_facts(), LineProbe{{0, 0, 0}, {1, 0, 0}, "pressure"});
+    using Kind = Writable::Kind;
+    REQUIRE(all.size() == 6);
+    CHECK(all[0].what.domain == ELVIS_DOMAIN_BOUNDARY);
+    CHECK(all[2].what.isovalue == 1);
+    CHECK(all[2].what.is_clipped);
+    CHECK(all[3].kind == Kind::lines);
+    CHECK(all[3].surface == 3);
+    CHECK(all[3].what.field == "pressure");
+    CHECK(all[4].kind == Kind::line_probe);
+    CHECK(all[5].kind == Kind::grid);
+    CHECK(writables_of(scene, flow_facts(2), std::nullopt).size() == 3);
+    CHECK(usual_grid(flow_facts()) == std::array<std::size_t, 3>{64, 64, 16});
+    CHECK(usual_grid(flow_facts(2)) == std::array<std::size_t, 3>{64, 64, 1});
+    for (const Writable& what : all) {
+        for (const char* ending : endings_of(what.kind)) {
+            DataFile file{what, std::string("file") + ending};
+            file.values = WrittenValues::none;
+            CHECK(problem_of(file).empty());
+        }
+        CHECK(problem_of({what, "file.png"}) != "");
+    }
+    CHECK(problem_of({all[0], "file.stl"}) == ".stl holds no values; .vtp, .ply and .glb do");
 }

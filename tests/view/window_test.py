@@ -397,6 +397,48 @@ def edits_lines_arrows_and_what_is_shown_of_the_volume(window):
     window.settle()
 
 
+def writes(window, what, name):
+    """The file of one of the things that the picture shows."""
+    window.key("ctrl+e")
+    window.wait_for(lambda screen: screen["dialog"] == 7, "the dialog")
+    window.click("write/what")
+    window.click(f"write/what/{what}")
+    window.click("dialog/name")
+    window.key("ctrl+a")
+    window.write(os.path.join(window.folder, name))
+    window.picture(f"{name}.png")
+    window.key("Return")
+    screen = window.wait_for(lambda screen: screen["dialog"] == 0 and any(name in message for message in screen["messages"]), name)
+    require(os.path.exists(name), f"there is no {name}: {screen['messages']}")
+    with open(name, "rb") as file:
+        return file.read()
+
+
+def writes_numbers(window, elvis):
+    """Files of surfaces, lines and grids are those of the commands."""
+    window.click("items/add")
+    window.click("add/Streamlines")
+    window.click("streamlines/seeds")
+    window.click("streamlines/seeds/on a line")
+    screen = window.wait_for(lambda screen: "seed_line" in screen["scene"]["surfaces"][1], "seeds on a line")
+    ends = screen["scene"]["surfaces"][1]["seed_line"]
+    window.drag(window.place("handle/seeds to"), (20, 30))
+    screen = window.wait_for(lambda screen: screen["scene"]["surfaces"][1]["seed_line"] != ends, "the line's end to move")
+    ends = [",".join(repr(x) for x in end) for end in screen["scene"]["surfaces"][1]["seed_line"]]
+    asked = ["ball.h5", "--time-step", str(time_step(screen))]
+    run(elvis, window.folder, "extract", *asked, "--boundary", "--values", "waves", "-o", "same.ply")
+    run(elvis, window.folder, "streamlines", *asked, "--field", "velocity", "--line", *ends, "--values", "waves", "-o", "same.csv")
+    run(elvis, window.folder, "sample", *asked, "--grid", "64x64x64", "--field", "waves", "-o", "same.vti")
+    for what, name in (("Boundary", "mesh.ply"), ("Streamlines velocity", "lines.csv"), ("Grid of points", "grid.vti")):
+        with open("same" + name[-4:], "rb") as same:
+            require(writes(window, what, name) == same.read(), f"{name} is not what the command writes")
+    window.key("ctrl+z")
+    window.key("ctrl+z")
+    window.key("ctrl+z")
+    window.wait_for(lambda screen: screen["items"] == ["Boundary"], "the streamlines to go again")
+    window.settle()
+
+
 def box_of(screen, name):
     left, top, right, bottom = (int(x) for x in screen["places"][name])
     return left, top, right - left, bottom - top
@@ -503,6 +545,7 @@ def main(elvis, folder):
             found, wanted = pasted(window)[:60], table.translate(without_tabs)[:60]
             require(found == wanted, f"the clipboard holds '{found}' in place of '{wanted}'")
         edits_lines_arrows_and_what_is_shown_of_the_volume(window)
+        writes_numbers(window, elvis)
         shows_two_views(window)
         hides_all(window, elvis)
         quits(window)

@@ -1,11 +1,10 @@
-#include "mesh_files.hpp"
+#include "files/mesh_files.hpp"
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
 #include <apps/elvis/volume_arguments.hpp>
 
-#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 
 #include <nlohmann/json.hpp>
@@ -34,14 +33,6 @@ struct ExtractArguments {
     std::string output;
 };
 
-std::vector<elvis_string> c_texts(const std::vector<std::string>& texts) {
-    std::vector<elvis_string> all;
-    for (const std::string& text : texts) {
-        all.push_back(text.c_str());
-    }
-    return all;
-}
-
 /** Before anything is opened. */
 void check_extract(const ExtractArguments& arguments) {
     const auto ends_in = [&](const char* ending) { return arguments.output.ends_with(ending); };
@@ -67,7 +58,7 @@ void check_extract(const ExtractArguments& arguments) {
 
 extracted mesh_of(const context& library, const data& volume, const ExtractArguments& arguments) {
     const std::string& level_field = arguments.level_field.empty() ? arguments.field : arguments.level_field;
-    const std::vector<elvis_string> groups = c_texts(arguments.groups), values = c_texts(arguments.values);
+    const std::vector<elvis_string> groups = detail::c_strings(arguments.groups), values = detail::c_strings(arguments.values);
     std::vector<double> contours;
     if (!arguments.contours.empty()) {
         contours = numbers("--contours", arguments.contours, 1, std::numeric_limits<std::size_t>::max());
@@ -99,17 +90,6 @@ extracted mesh_of(const context& library, const data& volume, const ExtractArgum
                     [&] { return control.is_cancelled(); }});
 }
 
-std::vector<MeshColumn> mesh_columns(const data& volume, const std::vector<std::string>& fields) {
-    std::vector<MeshColumn> columns;
-    std::size_t first = 0;
-    for (const std::string& field : fields) {
-        const elvis_string name = field.c_str();
-        columns.push_back({field, volume.count_values(&name, 1), first});
-        first += columns.back().n_components;
-    }
-    return columns;
-}
-
 void print_mesh_json(const elvis_mesh_info& info) {
     const bool has_lines = info.n_lines > 0;
     nlohmann::ordered_json answer = {{"vertices", info.n_vertices}, {"triangles", info.n_triangles}, {"lines", info.n_lines}};
@@ -132,39 +112,10 @@ void print_mesh_json(const elvis_mesh_info& info) {
 }
 
 void print_mesh_report(const elvis_mesh_info& info, const std::string& path) {
-    if (info.n_lines > 0) {
-        std::printf("%s of %s written to %s\n", counted(info.n_lines, "line").c_str(),
-                    counted(info.n_vertices, "point").c_str(), path.c_str());
-    } else {
-        std::printf("%s of %llu vertices written to %s\n", counted(info.n_triangles, "triangle").c_str(),
-                    static_cast<unsigned long long>(info.n_vertices), path.c_str());
-    }
-    std::printf("  %s %.9g\n", info.n_lines > 0 ? "length" : "area", info.measure);
-    if (info.n_lines == 0 && info.n_triangles > 0 && info.n_rim_edges + info.n_inner_edges == 0) {
-        std::printf("  closed, around a volume of %.9g; Euler number %lld\n", info.volume,
-                    static_cast<long long>(info.euler_number));
-    }
-    std::printf("  off by at most %.3g of the true one, seen at samples; wanted: %.3g\n",
-                std::max(info.mesh_to_surface, info.surface_to_mesh), info.tolerance);
-    if (info.n_rim_edges > 0) {
-        std::printf("  %s where the surface ends\n", counted(info.n_rim_edges, "edge").c_str());
-    }
-    std::printf("  %s\n", info.is_certified != 0 ? "no part of it is missing: certified"
-                                                 : "that no part of it is missing rests on samples, or is undecided");
-}
-
-/** On the other stream. */
-void say_extract_doubts(const elvis_mesh_info& info) {
-    if (info.n_inner_edges > 0) {
-        std::fprintf(stderr, "elvis: %s inside of the volume: there the field jumps, or elements do not meet face to face\n",
-                     counted(info.n_inner_edges, "open edge").c_str());
-    }
-    if (info.n_open_ends > 0) {
-        std::fprintf(stderr, "elvis: lines have %s within the surface\n", counted(info.n_open_ends, "open end").c_str());
-    }
-    if (std::max(info.mesh_to_surface, info.surface_to_mesh) > info.tolerance) {
-        std::fprintf(stderr, "elvis: the mesh is farther from the surface than was wanted: %.3g, not %.3g\n",
-                     std::max(info.mesh_to_surface, info.surface_to_mesh), info.tolerance);
+    const std::vector<std::string> report = report_of(info);
+    std::printf("%s written to %s\n", report.front().c_str(), path.c_str());
+    for (std::size_t line = 1; line < report.size(); ++line) {
+        std::printf("  %s\n", report[line].c_str());
     }
 }
 
@@ -174,17 +125,15 @@ void run_extract(const ExtractArguments& arguments) {
     const data volume = open_volume(library, arguments.volume, arguments.time_step);
     const std::vector<MeshColumn> columns = mesh_columns(volume, arguments.values);
     const extracted mesh = mesh_of(library, volume, arguments);
-    if (arguments.output.ends_with(".vtp")) {
-        write_mesh_vtp(mesh, columns, arguments.output);
-    } else if (arguments.output.ends_with(".ply")) {
-        write_ply(mesh, columns, arguments.output);
-    } else if (arguments.output.ends_with(".stl")) {
-        write_stl(mesh, arguments.output);
+    write_mesh(mesh, columns, arguments.output);
+    if (arguments.is_json) {
+        print_mesh_json(mesh.info);
     } else {
-        write_glb(mesh, columns, arguments.output);
+        print_mesh_report(mesh.info, arguments.output);
     }
-    arguments.is_json ? print_mesh_json(mesh.info) : print_mesh_report(mesh.info, arguments.output);
-    say_extract_doubts(mesh.info);
+    for (const std::string& doubt : doubts_of(mesh.info)) {
+        std::fprintf(stderr, "elvis: %s\n", doubt.c_str());
+    }
 }
 
 } // namespace

@@ -1,6 +1,5 @@
-#include "sample_files.hpp"
+#include "files/sample_files.hpp"
 #include "sample_points.hpp"
-#include "sample_table.hpp"
 
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/library_context.hpp>
@@ -87,20 +86,6 @@ void need_one_kind(const SampleArguments& arguments) {
     }
 }
 
-void write(const SampleTable& table, const std::string& path) {
-    if (path.ends_with(".svg")) {
-        write_svg_plot(table, path);
-    } else if (path.ends_with(".csv")) {
-        write_csv(table, path);
-    } else if (path.ends_with(".npz")) {
-        write_npz(table, path);
-    } else if (path.ends_with(".vti")) {
-        write_vti(table, path);
-    } else {
-        write_hdf5(table, path);
-    }
-}
-
 /** What a file of that kind cannot hold is said before anything is computed. */
 void need_fitting_ending(const SampleArguments& arguments) {
     need_ending("--output", arguments.output, {".csv", ".npz", ".h5", ".vti", ".svg"});
@@ -126,7 +111,7 @@ void run_sample(const SampleArguments& arguments) {
                        {[&](double fraction, const char* activity) { control.progress(fraction, activity); },
                         [&] { return control.is_cancelled(); }});
     }
-    write(table, arguments.output);
+    write_samples(table, arguments.output);
     std::printf("%s written to %s; %zu in no element", counted(table.points.size(), "point").c_str(), arguments.output.c_str(),
                 table.n_outside());
     if (!table.points.corners.empty()) {

@@ -1,18 +1,17 @@
-#include "line_files.hpp"
+#include "files/line_files.hpp"
 #include "sample_points.hpp"
 #include <apps/elvis/commands.hpp>
 #include <apps/elvis/library_context.hpp>
 #include <apps/elvis/number_list.hpp>
 #include <apps/elvis/open_volume.hpp>
+#include <apps/elvis/render/output_endings.hpp>
 #include <apps/elvis/volume_arguments.hpp>
 
-#include <core/base/counted.hpp>
 #include <core/base/error.hpp>
 #include <core/base/vector3.hpp>
 
 #include <nlohmann/json.hpp>
 
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -88,10 +87,7 @@ std::vector<double> seeds_of(const StreamlinesArguments& arguments) {
 
 traced traced_lines(const data& volume, const StreamlinesArguments& arguments, const std::string& surface,
                     const std::vector<double>& seeds) {
-    std::vector<elvis_string> names;
-    for (const std::string& name : arguments.fields) {
-        names.push_back(name.c_str());
-    }
+    const std::vector<elvis_string> names = detail::c_strings(arguments.fields);
     auto wanted = detail::sized<elvis_tracing>();
     wanted.time_step = arguments.time_step;
     wanted.field = arguments.field.c_str();
@@ -118,62 +114,19 @@ traced traced_lines(const data& volume, const StreamlinesArguments& arguments, c
                                  [&] { return control.is_cancelled(); }});
 }
 
-std::vector<LineColumn> columns_of(const data& volume, const std::vector<std::string>& fields) {
-    std::vector<LineColumn> columns;
-    for (const std::string& field : fields) {
-        const elvis_string name = field.c_str();
-        columns.push_back({field, volume.count_values(&name, 1)});
-    }
-    return columns;
-}
-
-void say_ends(const traced& lines) {
-    std::array<std::size_t, ELVIS_LINE_TIME + 1> counts{};
-    for (std::size_t line = 0; line < lines.begins.size(); ++line) {
-        ++counts[lines.begins[line]];
-        counts[lines.ends[line]] += lines.begins[line] != ELVIS_LINE_NO_ELEMENT ? 1 : 0;
-    }
-    std::printf("%s, %s\n", counted(lines.begins.size(), "line").c_str(), counted(lines.times.size(), "point").c_str());
-    for (elvis_line_end end = 0; end < counts.size(); ++end) {
-        if (counts[end] > 0) {
-            std::printf("  %zu %s\n", counts[end], word_of(end));
-        }
-    }
-    if (lines.time_doubt >= 0) {
-        std::printf("between time steps linear and cubic interpolation are up to %.2g of the largest speed apart\n",
-                    lines.time_doubt);
-    }
-}
-
 void run_streamlines(const StreamlinesArguments& arguments) {
-    const bool is_csv = arguments.output.ends_with(".csv");
-    if (!is_csv && !arguments.output.ends_with(".vtp")) {
-        throw UsageError("--output", "'" + arguments.output + "' ends neither in .vtp nor in .csv");
-    }
+    need_ending("--output", arguments.output, {".vtp", ".csv"});
     const std::string surface = seed_surface_of(arguments);
     const std::vector<double> seeds = seeds_of(arguments);
     const context library = library_context();
     const data volume = open_volume(library, arguments.volume, arguments.time_step);
-    const std::vector<LineColumn> columns = columns_of(volume, arguments.fields);
+    const std::vector<LineColumn> columns = line_columns(volume, arguments.fields);
     const traced lines = traced_lines(volume, arguments, surface, seeds);
-    is_csv ? write_line_csv(lines, columns, arguments.output) : write_vtp(lines, columns, arguments.output);
-    say_ends(lines);
+    write_lines(lines, columns, arguments.output);
+    for (const std::string& text : report_of(lines)) {
+        std::printf("%s\n", text.c_str());
+    }
 }
-
-} // namespace
-
-const char* word_of(elvis_line_end end) {
-    constexpr const char* words[] = {"ends where the volume ends",
-                                     "ends where the field is zero",
-                                     "ends at the length or the seed",
-                                     "ends after as many steps as are allowed",
-                                     "ends at faces where the field jumps back",
-                                     "seeds in no element",
-                                     "ends at the end of time, or at the seed"};
-    return words[end];
-}
-
-namespace {
 
 /** What both commands have. */
 void add_common(CLI::App& command, StreamlinesArguments& arguments) {

@@ -4,20 +4,8 @@
 
 namespace elvis::commands {
 
-namespace {
-
-std::vector<elvis_string> pointers(const std::vector<std::string>& texts) {
-    std::vector<elvis_string> all;
-    for (const std::string& text : texts) {
-        all.push_back(text.c_str());
-    }
-    return all;
-}
-
-} // namespace
-
 std::string convert_here(const Conversion& wanted, const TaskControl& control) {
-    const std::vector<elvis_string> inputs = pointers(wanted.inputs), fields = pointers(wanted.fields);
+    const std::vector<elvis_string> inputs = detail::c_strings(wanted.inputs), fields = detail::c_strings(wanted.fields);
     auto conversion = detail::sized<elvis_conversion>();
     conversion.n_inputs = static_cast<std::uint32_t>(inputs.size());
     conversion.inputs = inputs.data();

@@ -202,6 +202,18 @@ class Volume:
                                        ("cubic", "linear").index(interpolation) == 1, start_time, end_time, surface, spacing, report)
         return streamlines_of(found, names, n_values)
 
+    def lines_of(self, scene: Scene, surface: int, fields: str | Sequence[str] = (), *, progress: Progress = True) -> list[Streamline]:
+        """The streamlines or pathlines of a scene's surface, as its picture shows them.
+
+        surface: index in scene.surfaces. fields: names or expressions whose values at the points are wanted. If the scene has a warp,
+        lines are those of the displaced volume.
+        """
+        names = [fields] if isinstance(fields, str) else list(fields)
+        n_values = [self._handle.count_values(name) for name in names]
+        with progress_for(progress) as report:
+            found = self._handle.trace_scene(scene.to_json(), scene._folder, surface, names, report)
+        return streamlines_of(found, names, n_values)
+
     def warp(self, field: str, factor: float = 1.0, *, imaginary: str | None = None, phase: float = 0.0, time_step: int = 0,
              progress: Progress = True) -> "Volume":
         """The volume displaced by factor times a field, exactly; fields go along with the points.

@@ -12,10 +12,7 @@ nlohmann::json integral_of(const Served& served, const Scene& scene, const Integ
     const elvis::scene shown = served.library_scene(scene);
     const auto expression = [&](const std::string& field) { return field.empty() ? field : shown.expression(field); };
     const std::string field = expression(wishes.field), level_field = expression(wishes.level_field);
-    std::vector<elvis_string> groups;
-    for (const std::string& group : wishes.groups) {
-        groups.push_back(group.c_str());
-    }
+    const std::vector<elvis_string> groups = detail::c_strings(wishes.groups);
     auto wanted = detail::sized<elvis_integration>();
     wanted.domain = wishes.domain;
     wanted.field = detail::or_null(field);

@@ -49,10 +49,7 @@ std::string level_field_of(const IntegrateArguments& arguments) {
 
 elvis_integral integral_of(const data& volume, const IntegrateArguments& arguments) {
     const std::string level_field = level_field_of(arguments);
-    std::vector<elvis_string> groups;
-    for (const std::string& group : arguments.groups) {
-        groups.push_back(group.c_str());
-    }
+    const std::vector<elvis_string> groups = detail::c_strings(arguments.groups);
     auto wanted = detail::sized<elvis_integration>();
     wanted.domain = domain_of(arguments);
     wanted.field = detail::or_null(arguments.field);

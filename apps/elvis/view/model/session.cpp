@@ -163,10 +163,7 @@ Numbers Session::numbers(const Scene& scene, const NumbersQuestion& question, co
         if (question.domain == ELVIS_DOMAIN_VOLUME) {
             row.extrema = volume.range(field, question.time_step);
         }
-        std::vector<elvis_string> groups;
-        for (const std::string& group : question.groups) {
-            groups.push_back(group.c_str());
-        }
+        const std::vector<elvis_string> groups = detail::c_strings(question.groups);
         auto wanted = detail::sized<elvis_integration>();
         wanted.domain = question.domain;
         wanted.field = field.c_str();
@@ -187,6 +184,11 @@ Numbers Session::numbers(const Scene& scene, const NumbersQuestion& question, co
         row.error = error.what();
     }
     return row;
+}
+
+WrittenReport Session::write_data(const Scene& scene, const DataFile& file, const task& watch) {
+    const bool is_displaced = file.what.kind != Writable::Kind::lines;
+    return write_data_file(m_library, is_displaced ? shown(scene) : opened(), library_scene(scene), file, watch);
 }
 
 std::vector<double> Session::samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece) {

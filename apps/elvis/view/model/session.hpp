@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "data_file.hpp"
 #include "frame_schedule.hpp"
 #include "line_probe.hpp"
 #include "numbers.hpp"
@@ -75,6 +76,8 @@ public:
     LineAnswer along(const Scene& scene, const LineProbe& line);
     /** One row; throws cancelled if it is stopped. Any thread may be asked whether it is. */
     Numbers numbers(const Scene& scene, const NumbersQuestion& question, const std::function<bool()>& is_stopped);
+    /** Throws cancelled where the watch says so. */
+    WrittenReport write_data(const Scene& scene, const DataFile& file, const task& watch);
     /** Values of a field at the points of one piece of ELVIS_SAMPLE_PIECES. */
     std::vector<double> samples(const Scene& scene, const std::optional<std::string>& field, unsigned piece);
 

@@ -32,6 +32,8 @@ double MotionStatistics::frames_per_second() const {
 
 Workbench::Workbench(std::unique_ptr<Session> session) : m_session(session.get()), m_worker(std::move(session)) {}
 
+Workbench::~Workbench() { m_writing.cancel(); }
+
 void Workbench::say(Message::Kind kind, std::string text) {
     constexpr std::size_t most_messages = 500;
     m_messages.push_back({kind, std::move(text)});
@@ -127,6 +129,32 @@ void Workbench::save_picture(const std::string& path, const std::array<std::uint
             };
         },
         [this](const std::string& error) { say(Message::Kind::error, error); });
+}
+
+void Workbench::write_data(const DataFile& file) {
+    m_writing.begin();
+    const auto end = [this](Message::Kind kind, const std::string& text) {
+        m_writing.end();
+        say(kind, text);
+    };
+    m_worker.post(
+        "writing " + std::filesystem::path(file.path).filename().string(),
+        [this, scene = m_model.scene(), file, end](Session& session) -> FrameWorker::Answer {
+            try {
+                return [this, file, end, report = session.write_data(scene, file, m_writing.watch())] {
+                    end(Message::Kind::info, "wrote " + file.what.what.of + " to " + file.path);
+                    for (const std::string& fact : report.facts) {
+                        say(Message::Kind::info, fact);
+                    }
+                    for (const std::string& doubt : report.doubts) {
+                        say(Message::Kind::warning, doubt);
+                    }
+                };
+            } catch (const cancelled&) {
+                return [file, end] { end(Message::Kind::info, "nothing was written to " + file.path); };
+            }
+        },
+        [end](const std::string& error) { end(Message::Kind::error, error); });
 }
 
 void Workbench::pick(const PicturePoint& place, std::size_t view) {

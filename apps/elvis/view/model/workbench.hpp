@@ -10,6 +10,7 @@
 #include "model.hpp"
 #include "second_view.hpp"
 #include "shown_view.hpp"
+#include "write_task.hpp"
 #include <apps/elvis/view/scene/camera_motion.hpp>
 
 #include <array>
@@ -45,6 +46,10 @@ public:
     using Clock = std::chrono::steady_clock;
 
     explicit Workbench(std::unique_ptr<Session> session);
+    /** What is being written is not written to its end. */
+    ~Workbench();
+    Workbench(const Workbench&) = delete;
+    Workbench& operator=(const Workbench&) = delete;
 
     Model& model() { return m_model; }
     const Model& model() const { return m_model; }
@@ -55,6 +60,9 @@ public:
     void open_files(const std::vector<std::string>& paths) { open_files(paths, false); }
     void save_scene(const std::string& path);
     void save_picture(const std::string& path, const std::array<std::uint32_t, 2>& size, int bits);
+    /** Pictures wait until it is done; not while another file is being written. Says what has been written. */
+    void write_data(const DataFile& file);
+    WriteTask& writing() { return m_writing; }
     /** What is seen at a place of the first view's picture, or of the second one's. */
     void pick(const PicturePoint& place, std::size_t view = 0);
     const std::optional<Picked>& picked() const { return m_picked; }
@@ -179,6 +187,7 @@ private:
     MotionStatistics m_motion;
     std::vector<Message> m_messages;
     ConversionTask m_conversion;
+    WriteTask m_writing;
     /** After all else: its answers touch it. */
     FrameWorker m_worker;
 };

@@ -1,6 +1,5 @@
+#include "file_dialog.hpp"
 #include "panels.hpp"
-
-#include <apps/elvis/view/model/file_list.hpp>
 
 #include <imgui_stdlib.h>
 
@@ -13,6 +12,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/** The name, the two buttons, and one line for what else is asked. */
+constexpr float usual_lines_below = 3.2f;
+
 /** Goes to a folder that exists. */
 void start_in_folder(Ui& ui) {
     DialogState& state = ui.dialog_state;
@@ -23,67 +25,11 @@ void start_in_folder(Ui& ui) {
     }
 }
 
-fs::path chosen_path(const DialogState& state) {
-    const fs::path name(state.name);
-    return name.is_absolute() ? name : fs::path(state.folder) / name;
-}
-
-/** The folder's entries. Returns whether a file was double-clicked. */
-bool folder_list(Ui& ui) {
-    DialogState& state = ui.dialog_state;
-    if (button(ui, "dialog/up", "Up", "To the folder that holds this one")) {
-        state.folder = fs::path(state.folder).parent_path().string();
-    }
-    ImGui::SameLine();
-    ImGui::TextUnformatted(state.folder.c_str());
-    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6);
-    ImGui::InputTextWithHint("Filter", "part of the name", &state.filter);
-    explain(ui, "dialog/filter", "Shows only files with this in their name");
-    bool is_done = false;
-    if (ImGui::BeginChild("files", ImVec2(0, -3.2f * ImGui::GetFrameHeightWithSpacing()), true)) {
-        for (const FolderEntry& entry : list_folder(state.folder, state.filter)) {
-            const std::string label = entry.is_folder ? entry.name + "/" : entry.name;
-            if (ImGui::Selectable(label.c_str(), !entry.is_folder && entry.name == state.name,
-                                  ImGuiSelectableFlags_AllowDoubleClick)) {
-                if (entry.is_folder) {
-                    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-                        state.folder = (fs::path(state.folder) / entry.name).string();
-                    }
-                } else {
-                    state.name = entry.name;
-                    is_done = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-                }
-            }
-            explain(ui, "file/" + entry.name, "");
-        }
-    }
-    ImGui::EndChild();
-    return is_done;
-}
-
-/** The file's name, and the two buttons. Returns whether the first was pressed, or Enter. */
-bool name_and_buttons(Ui& ui, const char* action, bool& is_closed) {
-    DialogState& state = ui.dialog_state;
-    ImGui::SetNextItemWidth(-ImGui::GetFontSize() * 6);
-    if (state.is_new) {
-        ImGui::SetKeyboardFocusHere();
-        state.is_new = false;
-    }
-    bool is_done = ImGui::InputText("Name", &state.name, ImGuiInputTextFlags_EnterReturnsTrue);
-    explain(ui, "dialog/name", "In the folder above, or with its own path");
-    ImGui::BeginDisabled(state.name.empty());
-    is_done = button(ui, "dialog/do", action, "") || is_done;
-    ImGui::EndDisabled();
-    ImGui::SameLine();
-    is_closed = button(ui, "dialog/cancel", "Cancel", "Escape") || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    return is_done && !state.name.empty();
-}
-
 void open_dialog(Ui& ui) {
     bool is_closed = false;
-    const bool is_chosen = folder_list(ui);
+    const bool is_chosen = folder_list(ui, usual_lines_below);
     if (name_and_buttons(ui, "Open", is_closed) || is_chosen) {
-        ui.bench.open(chosen_path(ui.dialog_state).string());
+        ui.bench.open(chosen_path(ui.dialog_state));
         is_closed = true;
     }
     if (is_closed) {
@@ -93,7 +39,7 @@ void open_dialog(Ui& ui) {
 
 void save_scene_dialog(Ui& ui) {
     bool is_closed = false;
-    folder_list(ui);
+    folder_list(ui, usual_lines_below);
     if (name_and_buttons(ui, "Save", is_closed)) {
         fs::path path = chosen_path(ui.dialog_state);
         if (path.extension().empty()) {
@@ -110,7 +56,7 @@ void save_scene_dialog(Ui& ui) {
 void save_picture_dialog(Ui& ui) {
     DialogState& state = ui.dialog_state;
     bool is_closed = false;
-    folder_list(ui);
+    folder_list(ui, usual_lines_below);
     int width = static_cast<int>(state.size[0]), height = static_cast<int>(state.size[1]);
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 7);
     ImGui::InputInt("x##width", &width);
@@ -222,6 +168,8 @@ const char* title_of(Dialog dialog) {
         return "Mouse and keys";
     case Dialog::quit:
         return "Leave ElVis";
+    case Dialog::write_data:
+        return "Write as numbers";
     case Dialog::none:
         break;
     }
@@ -248,6 +196,9 @@ void prepare(Ui& ui, Dialog dialog) {
         break;
     case Dialog::convert:
         state.name = fs::path(ui.bench.foreign_file.value_or("")).replace_extension(".h5").string();
+        break;
+    case Dialog::write_data:
+        begin_data_file(ui, writables_of(ui.scene(), *ui.model().volume(), ui.bench.line).front(), stem);
         break;
     default:
         break;
@@ -304,6 +255,9 @@ void draw_dialogs(Ui& ui) {
         break;
     case Dialog::quit:
         quit_dialog(ui);
+        break;
+    case Dialog::write_data:
+        write_data_dialog(ui);
         break;
     case Dialog::none:
         break;

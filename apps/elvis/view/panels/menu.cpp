@@ -45,8 +45,13 @@ void file_menu(Ui& ui) {
     if (item(ui, "menu/save as", "Save scene as...", "Ctrl+Shift+S", "The same under another name", has_volume)) {
         ui.next_dialog = Dialog::save_scene;
     }
-    if (item(ui, "menu/save picture", "Save picture...", "Ctrl+P", "The picture as PNG, in any size", has_volume)) {
+    if (item(ui, "menu/save picture", "Save picture...", "Ctrl+P", "The picture as PNG, SVG or PDF, in any size", has_volume)) {
         ui.next_dialog = Dialog::save_picture;
+    }
+    if (item(ui, "menu/write", "Write as numbers...", "Ctrl+E",
+             "Surfaces and streamlines that are shown, the line, or a grid of points, as files for other programs",
+             has_volume)) {
+        ui.next_dialog = Dialog::write_data;
     }
     ImGui::Separator();
     if (item(ui, "menu/quit", "Quit", "Ctrl+Q", "")) {

@@ -20,6 +20,8 @@ void handle_with_control(Ui& ui, const KeyPress& key) {
         }
     } else if (is('P') && has_volume) {
         ui.next_dialog = Dialog::save_picture;
+    } else if (is('E') && has_volume) {
+        ui.next_dialog = Dialog::write_data;
     } else if (is('Z')) {
         if (key.with_shift) {
             model.redo();
@@ -100,6 +102,7 @@ const std::vector<std::pair<const char*, const char*>>& shortcut_texts() {
         {"Ctrl + O", "open"},
         {"Ctrl + S, Ctrl + Shift + S", "save the scene"},
         {"Ctrl + P", "save the picture"},
+        {"Ctrl + E", "write what is shown as numbers"},
         {"Ctrl + Q", "quit"},
         {"F1", "this list"}};
     return texts;

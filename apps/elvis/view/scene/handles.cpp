@@ -77,6 +77,9 @@ std::vector<Handle> handles_of_place(const Json& surface, const VolumeFacts& vol
     for (const Json& seed : part_of(surface, "seeds")) {
         seeds.push_back(mover(seed, "Drag: move the seed of a line", "seed"));
     }
+    for (const Json& end : part_of(surface, "seed_line")) {
+        seeds.push_back(mover(end, "Drag: move an end of the line of seeds", seeds.empty() ? "seeds from" : "seeds to"));
+    }
     return seeds;
 }
 
@@ -119,6 +122,10 @@ void move_surface(Json& surface, const VolumeFacts& volume, std::size_t handle, 
         surface["plane"] = moved_plane(surface["plane"], volume, handle == 1, position);
     } else if (surface.contains("seeds")) {
         surface["seeds"][handle] = position;
+    } else if (surface.contains("seed_line")) {
+        if (surface["seed_line"][1 - handle] != Json(position)) {
+            surface["seed_line"][handle] = position;
+        }
     } else if (surface.contains("center")) {
         if (handle == 0) {
             surface["center"] = position;

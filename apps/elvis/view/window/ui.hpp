@@ -25,7 +25,7 @@ struct KeyPress {
 };
 
 /** Which dialog is open; each is drawn by its own file in panels/. */
-enum class Dialog { none, open, save_scene, save_picture, convert, shortcuts, quit };
+enum class Dialog { none, open, save_scene, save_picture, convert, shortcuts, quit, write_data };
 
 /** What is entered in the dialog that is open. */
 struct DialogState {
@@ -35,6 +35,7 @@ struct DialogState {
     std::string input; ///< of a conversion
     std::array<std::uint32_t, 2> size{};
     bool has_16_bits = false;
+    DataFile file{}; ///< of numbers
 };
 
 struct Ui {

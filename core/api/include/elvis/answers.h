@@ -211,6 +211,14 @@ typedef struct elvis_line_arrays {
  */
 ELVIS_EXPORT elvis_result elvis_data_trace(elvis_data* data, const elvis_tracing* tracing, const elvis_task* task,
                                            elvis_lines** lines);
+/**
+ * The lines of a scene's item of streamlines or pathlines, as a picture of the scene shows them, with the displacement that the
+ * scene has. `surface`: its index in the scene's `surfaces`. `fields`: n_fields names and expressions whose values at the
+ * lines' points are wanted. Not of scenes of several volumes.
+ */
+ELVIS_EXPORT elvis_result elvis_data_trace_scene(elvis_data* data, const elvis_scene* scene, uint32_t surface,
+                                                 const elvis_string* fields, uint32_t n_fields, const elvis_task* task,
+                                                 elvis_lines** lines);
 ELVIS_EXPORT elvis_result elvis_lines_get_info(const elvis_lines* lines, elvis_lines_info* info);
 ELVIS_EXPORT elvis_result elvis_lines_read(const elvis_lines* lines, const elvis_line_arrays* arrays);
 ELVIS_EXPORT void elvis_lines_release(elvis_lines* lines);

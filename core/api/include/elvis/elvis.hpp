@@ -100,6 +100,15 @@ inline const char* or_null(const std::string& text) { return text.empty() ? null
 
 using shared_context = std::shared_ptr<elvis_context>;
 
+/** Of texts that must outlive them. */
+inline std::vector<elvis_string> c_strings(const std::vector<std::string>& texts) {
+    std::vector<elvis_string> all;
+    for (const std::string& text : texts) {
+        all.push_back(text.c_str());
+    }
+    return all;
+}
+
 } // namespace detail
 
 class data;
@@ -377,10 +386,7 @@ public:
     /** JSON: see elvis_data_walk_line. */
     std::string walk_line(const std::array<double, 3>& from, const std::array<double, 3>& to,
                           const std::vector<std::string>& fields, std::uint32_t time_step = 0, const task& watch = {}) const {
-        std::vector<elvis_string> names;
-        for (const std::string& name : fields) {
-            names.push_back(name.c_str());
-        }
+        const std::vector<elvis_string> names = detail::c_strings(fields);
         char* text = nullptr;
         const elvis_task c_watch = detail::c_task(watch);
         check(elvis_data_walk_line(get(), from.data(), to.data(), names.data(), static_cast<std::uint32_t>(names.size()),
@@ -392,33 +398,17 @@ public:
         elvis_lines* handle = nullptr;
         const elvis_task c_watch = detail::c_task(watch);
         check(elvis_data_trace(get(), &tracing, &c_watch, &handle));
-        const std::unique_ptr<elvis_lines, detail::release> lines(handle);
-        auto info = detail::sized<elvis_lines_info>();
-        check(elvis_lines_get_info(handle, &info));
-        traced all;
-        all.n_values = info.n_values;
-        all.time_doubt = info.time_doubt;
-        all.first.resize(info.n_lines + 1);
-        all.begins.resize(info.n_lines);
-        all.ends.resize(info.n_lines);
-        all.positions.resize(3 * info.n_points);
-        all.times.resize(info.n_points);
-        all.arc_lengths.resize(info.n_points);
-        all.elements.resize(info.n_points);
-        all.xi.resize(3 * info.n_points);
-        all.values.resize(info.n_points * info.n_values);
-        auto arrays = detail::sized<elvis_line_arrays>();
-        arrays.first = all.first.data();
-        arrays.begins = all.begins.data();
-        arrays.ends = all.ends.data();
-        arrays.positions = all.positions.data();
-        arrays.times = all.times.data();
-        arrays.arc_lengths = all.arc_lengths.data();
-        arrays.elements = all.elements.data();
-        arrays.xi = all.xi.data();
-        arrays.values = all.values.data();
-        check(elvis_lines_read(handle, &arrays));
-        return all;
+        return read_lines(handle);
+    }
+    /** See elvis_data_trace_scene. */
+    traced trace(const scene& shown, std::uint32_t surface, const std::vector<std::string>& fields = {},
+                 const task& watch = {}) const {
+        const std::vector<elvis_string> names = detail::c_strings(fields);
+        elvis_lines* handle = nullptr;
+        const elvis_task c_watch = detail::c_task(watch);
+        check(elvis_data_trace_scene(get(), shown.get(), surface, names.data(), static_cast<std::uint32_t>(names.size()),
+                                     &c_watch, &handle));
+        return read_lines(handle);
     }
     /** As the struct says. */
     void probe(const elvis_probe& request, const task& watch = {}) const {
@@ -433,10 +423,7 @@ public:
     /** `positions`: three numbers a point. */
     probed probe(const std::vector<double>& positions, const std::vector<std::string>& fields, std::uint32_t time_step = 0,
                  const task& watch = {}) const {
-        std::vector<elvis_string> names;
-        for (const std::string& name : fields) {
-            names.push_back(name.c_str());
-        }
+        const std::vector<elvis_string> names = detail::c_strings(fields);
         auto request = detail::sized<elvis_probe>();
         request.time_step = time_step;
         request.n_points = positions.size() / 3;
@@ -516,6 +503,36 @@ public:
 
 private:
     void check(elvis_result result) const { detail::check(result, m_context.get()); }
+    /** Releases the handle. */
+    traced read_lines(elvis_lines* handle) const {
+        const std::unique_ptr<elvis_lines, detail::release> lines(handle);
+        auto info = detail::sized<elvis_lines_info>();
+        check(elvis_lines_get_info(handle, &info));
+        traced all;
+        all.n_values = info.n_values;
+        all.time_doubt = info.time_doubt;
+        all.first.resize(info.n_lines + 1);
+        all.begins.resize(info.n_lines);
+        all.ends.resize(info.n_lines);
+        all.positions.resize(3 * info.n_points);
+        all.times.resize(info.n_points);
+        all.arc_lengths.resize(info.n_points);
+        all.elements.resize(info.n_points);
+        all.xi.resize(3 * info.n_points);
+        all.values.resize(info.n_points * info.n_values);
+        auto arrays = detail::sized<elvis_line_arrays>();
+        arrays.first = all.first.data();
+        arrays.begins = all.begins.data();
+        arrays.ends = all.ends.data();
+        arrays.positions = all.positions.data();
+        arrays.times = all.times.data();
+        arrays.arc_lengths = all.arc_lengths.data();
+        arrays.elements = all.elements.data();
+        arrays.xi = all.xi.data();
+        arrays.values = all.values.data();
+        check(elvis_lines_read(handle, &arrays));
+        return all;
+    }
 
     detail::shared_context m_context;
     std::unique_ptr<elvis_data, detail::release> m_handle;

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include "sample_table.hpp"
+#include <apps/elvis/answers/sample_table.hpp>
 
 #include <string>
 #include <variant>
@@ -29,6 +29,9 @@ struct NamedArray {
  * break_element_before and _after (-1: none), NAME_before and NAME_after (NaN where there is no element).
  */
 std::vector<NamedArray> arrays_of(const SampleTable& table);
+
+/** By the ending: .csv, .npz, .vti, of lines a plot, .svg; all else is HDF5. */
+void write_samples(const SampleTable& table, const std::string& path);
 
 /** A row a point. */
 void write_csv(const SampleTable& table, const std::string& path);

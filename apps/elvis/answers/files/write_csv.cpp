@@ -1,5 +1,5 @@
-#include "sample_curve.hpp"
 #include "sample_files.hpp"
+#include <apps/elvis/answers/sample_curve.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/output_file.hpp>

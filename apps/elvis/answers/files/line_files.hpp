@@ -18,6 +18,15 @@ struct LineColumn {
     std::uint32_t n_components = 1;
 };
 
+/** Those of fields and expressions, which the volume must know. */
+std::vector<LineColumn> line_columns(const data& volume, const std::vector<std::string>& fields);
+
+/** By the ending: .csv; all else is VTK's. */
+void write_lines(const traced& lines, const std::vector<LineColumn>& columns, const std::string& path);
+
+/** What was found, for people: how many lines, and why they end. Each text is a line. */
+std::vector<std::string> report_of(const traced& lines);
+
 /** As people read it: why a line begins or ends. */
 const char* word_of(elvis_line_end end);
 

@@ -20,6 +20,16 @@ struct MeshColumn {
     std::size_t first = 0;
 };
 
+/** Those of fields and expressions, which the volume must know. */
+std::vector<MeshColumn> mesh_columns(const data& volume, const std::vector<std::string>& fields);
+
+/** By the ending: .vtp, .ply, .stl; all else is glTF. */
+void write_mesh(const extracted& mesh, const std::vector<MeshColumn>& columns, const std::string& path);
+
+/** What was found, for people, each text a line: sizes first; and what may be wrong with it. */
+std::vector<std::string> report_of(const elvis_mesh_info& info);
+std::vector<std::string> doubts_of(const elvis_mesh_info& info);
+
 /** VTK's PolyData, binary: triangles or lines, normals, elements and values of vertices in double precision. */
 void write_mesh_vtp(const extracted& mesh, const std::vector<MeshColumn>& columns, const std::string& path);
 /** Binary, in double precision; lines as edges. */
