@@ -429,9 +429,16 @@ def writes_numbers(window, elvis):
     run(elvis, window.folder, "extract", *asked, "--boundary", "--values", "waves", "-o", "same.ply")
     run(elvis, window.folder, "streamlines", *asked, "--field", "velocity", "--line", *ends, "--values", "waves", "-o", "same.csv")
     run(elvis, window.folder, "sample", *asked, "--grid", "64x64x64", "--field", "waves", "-o", "same.vti")
-    for what, name in (("Boundary", "mesh.ply"), ("Streamlines velocity", "lines.csv"), ("Grid of points", "grid.vti")):
+    for what, name in (("Boundary", "mesh.ply"), ("Grid of points", "grid.vti")):
         with open("same" + name[-4:], "rb") as same:
             require(writes(window, what, name) == same.read(), f"{name} is not what the command writes")
+    # Seeds may differ in their last digit.
+    written = writes(window, "Streamlines velocity", "lines.csv").decode()
+    with open("same.csv") as same:
+        ours, theirs = ([line.split(",") for line in text.splitlines()] for text in (written, same.read()))
+    require(len(ours) == len(theirs) > 20 and ours[0] == theirs[0], f"{len(ours)} and {len(theirs)} rows")
+    off = max(abs(float(a) - float(b)) for one, other in zip(ours[1:], theirs[1:]) for a, b in zip(one, other))
+    require(off < 1e-6, f"lines are {off} off those that the command writes")
     window.key("ctrl+z")
     window.key("ctrl+z")
     window.key("ctrl+z")
