@@ -7,6 +7,7 @@
 #include <core/extract/shape_division.hpp>
 #include <core/integrate/domain_parts.hpp>
 #include <core/integrate/polynomial_degree.hpp>
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/element_finder.hpp>
 #include <core/volume/boundary/element_faces.hpp>
@@ -30,8 +31,7 @@ constexpr unsigned unknown_degree = 6;
 constexpr int most_rounds = 12;
 
 double diagonal_of(const RuntimeVolume& volume) {
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
+    const std::vector<double> boxes = all_bounds(volume);
     Vector3 lower{HUGE_VAL, HUGE_VAL, HUGE_VAL}, upper{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (std::size_t at = 0; at < boxes.size(); at += 6) {
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,7 @@
 #include <core/integrate/domain_parts.hpp>
 
 #include <core/base/error.hpp>
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/volume/boundary/element_faces.hpp>
 
 #include <algorithm>
@@ -93,8 +94,7 @@ private:
 
 std::vector<DomainPart> parts_in_plane_boxes(const RuntimeVolume& volume, const std::array<double, 4>& plane,
                                              const std::vector<DomainPart>& parts) {
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
+    const std::vector<double> boxes = all_bounds(volume);
     std::vector<DomainPart> met;
     for (const DomainPart& part : parts) {
         if (box_meets(std::span(boxes).subspan(6 * part.element, 6), plane)) {

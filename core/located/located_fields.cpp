@@ -2,6 +2,7 @@
 
 #include <core/base/counted.hpp>
 #include <core/base/error.hpp>
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/newton.hpp>
 #include <core/probe/plate.hpp>
@@ -41,8 +42,7 @@ LocatedFields::LocatedFields(const std::string& name, RuntimeVolume other, std::
                              std::size_t n_time_steps)
     : m_volume(with_points(std::move(other))), m_finder(m_volume), m_time_step(time_step), m_fields(m_volume.fields()) {
     need_steps(m_volume, time_step, n_time_steps);
-    std::vector<double> boxes(6 * m_volume.n_elements());
-    m_volume.bounds(0, m_volume.n_elements(), boxes);
+    const std::vector<double> boxes = all_bounds(m_volume);
     for (std::size_t at = 0; at < boxes.size(); at += 6) {
         m_middles.push_back(
             scaled({boxes[at] + boxes[at + 3], boxes[at + 1] + boxes[at + 4], boxes[at + 2] + boxes[at + 5]}, 0.5));

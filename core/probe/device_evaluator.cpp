@@ -1,5 +1,6 @@
 #include <core/base/error.hpp>
 #include <core/expression/glsl.hpp>
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/probe/device_evaluator.hpp>
 #include <core/probe/reference_shape.hpp>
 
@@ -80,8 +81,7 @@ const Device& require_float64(const Device& device) {
 DeviceEvaluator::DeviceEvaluator(const RuntimeVolume& volume, const std::string& device)
     : m_device(device), m_volume(&require_fields(volume)),
       m_on_device(require_float64(m_device), volume, Precision::float64, nullptr) {
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
+    const std::vector<double> boxes = all_bounds(volume);
     for (const double coordinate : boxes)
         m_position_error = std::max(m_position_error, std::numeric_limits<double>::epsilon() * std::abs(coordinate));
 }

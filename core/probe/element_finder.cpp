@@ -1,5 +1,6 @@
 #include <core/probe/element_finder.hpp>
 
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/probe/plate.hpp>
 
 #include <algorithm>
@@ -8,8 +9,7 @@
 namespace elvis {
 
 ElementFinder::ElementFinder(const RuntimeVolume& volume) {
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
+    const std::vector<double> boxes = all_bounds(volume);
     Vector3 lower{}, upper{};
     for (std::size_t d = 0; d < 3 && !boxes.empty(); ++d) {
         lower[d] = boxes[d];

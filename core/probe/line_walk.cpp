@@ -1,6 +1,7 @@
 #include <core/probe/line_walk.hpp>
 
 #include <core/base/error.hpp>
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/newton.hpp>
 #include <core/probe/plate.hpp>
@@ -69,8 +70,7 @@ private:
 
 /** In the order in which the line comes to the boxes. */
 std::vector<BoxSpan> Walk::spans() const {
-    std::vector<double> boxes(6 * m_volume.n_elements());
-    m_volume.bounds(0, m_volume.n_elements(), boxes);
+    const std::vector<double> boxes = all_bounds(m_volume);
     std::vector<BoxSpan> found;
     for (std::uint64_t element = 0; element < m_volume.n_elements(); ++element) {
         BoxSpan span{element, 0, 1};

@@ -1,4 +1,5 @@
 #include <core/base/infinity.hpp>
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/session/volume/describe_volume.hpp>
 
 #include <core/base/background.hpp>
@@ -187,8 +188,8 @@ ordered_json describe_fields(const RuntimeVolume& volume, const DescribeOptions&
 
 std::pair<std::array<double, 6>, elvis_certainty> bounds_of(const RuntimeVolume& volume) {
     std::array<double, 6> bounds{infinity, infinity, infinity, -infinity, -infinity, -infinity};
-    std::vector<double> boxes(6 * volume.n_elements());
-    const elvis_certainty certainty = volume.bounds(0, volume.n_elements(), boxes);
+    elvis_certainty certainty = ELVIS_ESTIMATED;
+    const std::vector<double> boxes = all_bounds(volume, certainty);
     for (std::size_t at = 0; at < boxes.size(); ++at) {
         const std::size_t axis = at % 6;
         bounds[axis] = axis < 3 ? std::min(bounds[axis], boxes[at]) : std::max(bounds[axis], boxes[at]);

@@ -1,5 +1,7 @@
 #include <core/volume/element/flat_height.hpp>
 
+#include <core/plugin_host/all_bounds.hpp>
+
 #include <algorithm>
 #include <vector>
 
@@ -9,8 +11,7 @@ std::optional<double> flat_height(const RuntimeVolume& volume) {
     if (volume.dimension() != 2 || volume.n_elements() == 0) {
         return std::nullopt;
     }
-    std::vector<double> boxes(6 * volume.n_elements());
-    volume.bounds(0, volume.n_elements(), boxes);
+    const std::vector<double> boxes = all_bounds(volume);
     double size = 0, lower = boxes[2], upper = boxes[5];
     for (std::size_t at = 0; at < boxes.size(); at += 6) {
         size = std::max({size, boxes[at + 3] - boxes[at], boxes[at + 4] - boxes[at + 1]});
