@@ -46,6 +46,7 @@ std::shared_ptr<const Served> open_served(const context& library, const Options&
     view::VolumeFacts facts = view::facts_of(volume, library);
     elvis::scene first =
         is_scene ? named.copy() : library.parse_scene(view::first_scene(library, volume, options.files).dump());
+    view::add_further_volumes(facts, library, Scene::parse(first.text()));
     const bool is_placed = view::is_placed(Scene::parse(first.json()));
     first.complete_camera(facts.extent());
     const fs::path near_file = fs::absolute(options.files.front()).parent_path();

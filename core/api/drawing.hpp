@@ -24,6 +24,9 @@ void need_one_volume(const Scene& scene, const char* what);
 /** The picture of a scene with several volumes, of which the data are the first. */
 elvis_picture* draw_volumes(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_render_options& options,
                             const elvis_task* task);
+/** The same for a screen. */
+elvis_picture* draw_volumes_for_screen(const std::shared_ptr<Data>& data, const Scene& scene, const ScreenOptions& options,
+                                       const elvis_task* task);
 
 /** Gives a scene's streamlines their tubes, and its arrows their glyphs; while the data's mutex is held. */
 void provide_glyphs(Data& data, Scene& scene);

@@ -103,7 +103,10 @@ elvis_result elvis_render_for_screen(elvis_data* data, const elvis_scene* scene,
         *picture = nullptr;
         need(scene, "scene");
         const ScreenOptions how = screen_options(known_or_zero(options));
-        need_one_volume(scene->state.scene, "a picture for a screen");
+        if (!scene->state.scene.volumes.empty()) {
+            *picture = draw_volumes_for_screen(data->state, scene->state.scene, how, task);
+            return;
+        }
         const std::shared_ptr<Data> shown = shown_data(data->state, scene->state.scene, task);
         Data& state = *shown;
         Scene said = scene_for(state, scene->state.scene);

@@ -3,6 +3,7 @@
 #include <core/session/volumes_together.hpp>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace elvis::library {
@@ -54,14 +55,20 @@ private:
 
 void need_one_volume(const Scene& scene, const char* what) {
     if (!scene.volumes.empty()) {
-        throw Error(scene.volume,
-                    std::string(what) +
-                        " is of one volume; the scene has several ('volumes'), of which still pictures are drawn");
+        throw Error(scene.volume, std::string(what) + " is of one volume; the scene has several ('volumes')");
     }
 }
 
-elvis_picture* draw_volumes(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_render_options& options,
-                            const elvis_task* task) {
+namespace {
+
+struct DrawnTogether {
+    /** The first volume's, displaced if it is shown so. */
+    std::shared_ptr<Data> data;
+    StillPicture still;
+};
+
+DrawnTogether drawn_together(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_render_options& options,
+                             const elvis_task* task) {
     need_drawable_together(scene);
     std::vector<std::shared_ptr<Data>> all;
     std::vector<VolumeInPicture> volumes;
@@ -78,8 +85,23 @@ elvis_picture* draw_volumes(const std::shared_ptr<Data>& data, const Scene& scen
         provide_glyphs(*all[number], volumes[number].scene);
         volumes[number].renderer = &all[number]->renderer(precision);
     }
-    return new_picture(all.front(), precision,
-                       draw_together(volumes, still_options(*all.front(), precision, options), all.front()->control.get()));
+    return {all.front(), draw_together(volumes, still_options(*all.front(), precision, options), all.front()->control.get())};
+}
+
+} // namespace
+
+elvis_picture* draw_volumes(const std::shared_ptr<Data>& data, const Scene& scene, const elvis_render_options& options,
+                            const elvis_task* task) {
+    DrawnTogether drawn = drawn_together(data, scene, options, task);
+    return new_picture(drawn.data, precision_of(scene), std::move(drawn.still));
+}
+
+elvis_picture* draw_volumes_for_screen(const std::shared_ptr<Data>& data, const Scene& scene, const ScreenOptions& options,
+                                       const elvis_task* task) {
+    elvis_render_options colors{};
+    colors.flags = ELVIS_RENDER_COLOR_ONLY;
+    DrawnTogether drawn = drawn_together(data, coarser(scene, options), colors, task);
+    return new_picture(drawn.data, precision_of(scene), shown_on_screen(std::move(drawn.still), scene.size));
 }
 
 } // namespace elvis::library

@@ -6,7 +6,6 @@
 #include <core/render/picture/screen_pass.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
-#include <core/session/still_picture.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -104,6 +103,11 @@ AnnotationPlan annotation_of(const Scene& scene, const FrameRequest& request, co
 
 ScreenPicture draw_for_screen(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const ScreenOptions& options,
                               const TaskControl* control) {
+    if (!options.is_coarse && scene.samples > 1) {
+        StillOptions how;
+        how.with_buffers = false;
+        return shown_on_screen(draw_still(scene, volume, renderer, how, control), scene.size);
+    }
     FrameRequest request = make_frame_request(scene, volume, renderer.ranges());
     request.for_screen = true;
     ScreenPicture picture;
@@ -125,8 +129,45 @@ ScreenPicture draw_for_screen(const Scene& scene, const RuntimeVolume& volume, R
         picture.remarks.push_back(std::move(remark));
     }
     picture.frame.screen.clear();
-    picture.is_refinable = has_refinement(request);
+    picture.is_refinable = has_refinement(request) || scene.samples > 1;
     picture.milliseconds = picture.frame.render_milliseconds + milliseconds_since(drawn);
+    return picture;
+}
+
+Scene coarser(const Scene& scene, const ScreenOptions& options) {
+    Scene coarse = scene;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+        coarse.size[axis] = std::max(1u, scene.size[axis] / options.divisor);
+        coarse.camera.image_shift[axis] *= static_cast<double>(coarse.size[1]) / scene.size[1];
+    }
+    if (options.has_no_lines) {
+        coarse.contours.reset();
+        coarse.mesh_lines.reset();
+        for (SceneSurface& surface : coarse.surfaces) {
+            surface.contours.reset();
+            surface.mesh_lines.reset();
+        }
+    }
+    return coarse;
+}
+
+ScreenPicture shown_on_screen(StillPicture still, const std::array<std::uint32_t, 2>& size) {
+    const auto start = std::chrono::steady_clock::now();
+    ScreenPicture picture;
+    picture.width = size[0];
+    picture.height = size[1];
+    picture.frame = std::move(still.frame);
+    picture.remarks = std::move(still.remarks);
+    std::vector<double>& color = picture.frame.color;
+    picture.frame.screen.reserve(color.size());
+    for (std::size_t at = 0; at < color.size(); at += n_channels) {
+        const auto levels = on_screen({color[at], color[at + 1], color[at + 2], color[at + 3]});
+        picture.frame.screen.insert(picture.frame.screen.end(), levels.begin(), levels.end());
+    }
+    color.clear();
+    paint(picture.frame, {}, picture);
+    picture.frame.screen.clear();
+    picture.milliseconds = picture.frame.render_milliseconds + milliseconds_since(start);
     return picture;
 }
 

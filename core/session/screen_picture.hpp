@@ -9,7 +9,9 @@
 #include <core/render/renderer.hpp>
 #include <core/scene/scene.hpp>
 #include <core/session/frame_remarks.hpp>
+#include <core/session/still_picture.hpp>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -37,8 +39,16 @@ struct ScreenPicture {
     bool is_refinable = false;
 };
 
-/** The picture has the scene's size, as has its annotation: of fewer pixels each is copied. Throws Error, or Cancelled. */
+/**
+ * The picture has the scene's size, as has its annotation: of fewer pixels each is copied. Several samples a pixel are drawn if
+ * it is not coarse. Throws Error, or Cancelled.
+ */
 ScreenPicture draw_for_screen(const Scene& scene, const RuntimeVolume& volume, Renderer& renderer, const ScreenOptions& options,
                               const TaskControl* control = nullptr);
+
+/** The scene with so many pixels fewer across and down, and lines only if they are wanted. */
+Scene coarser(const Scene& scene, const ScreenOptions& options);
+/** A still picture as screens show it, in that size: of fewer pixels each is copied. */
+ScreenPicture shown_on_screen(StillPicture still, const std::array<std::uint32_t, 2>& size);
 
 } // namespace elvis

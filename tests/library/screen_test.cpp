@@ -52,6 +52,14 @@ TEST_CASE("A picture for a screen has the colours of the still picture, and coar
     for (std::size_t row = 0; row < 36; row += 4) {
         CHECK(std::equal(&copied[row * 48 * 4], &copied[row * 48 * 4] + 48 * 4, &copied[(row + 3) * 48 * 4]));
     }
+    const std::vector<std::uint8_t> full = volume.render_for_screen(shown, coarse(1)).read<std::uint8_t>(ELVIS_CHANNEL_COLOR);
+    shown.set("/image/samples", "3");
+    CHECK((volume.render_for_screen(shown).read<std::uint8_t>(ELVIS_CHANNEL_COLOR) ==
+           volume.render(shown).read<std::uint8_t>(ELVIS_CHANNEL_COLOR)));
+    const picture without_samples = volume.render_for_screen(shown, coarse(1));
+    CHECK((without_samples.read<std::uint8_t>(ELVIS_CHANNEL_COLOR) == full));
+    CHECK(without_samples.info().is_refinable == 1);
+    shown.remove("/image/samples");
     shown.remove("/contours");
     CHECK(volume.render_for_screen(shown).info().is_refinable == 0);
     CHECK_THROWS_WITH(volume.render_for_screen(shown, coarse(257)), Catch::Contains("256"));

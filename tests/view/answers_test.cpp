@@ -19,7 +19,7 @@ VolumeFacts flow_facts(std::uint32_t dimension = 3) {
     VolumeFacts volume;
     volume.path = "flow.h5";
     volume.dimension = dimension;
-    volume.bounds = {-1, -2, 0, 3, 2, dimension == 2 ? 0.0 : 1.0};
+    volume.bounds = volume.shown_bounds = {-1, -2, 0, 3, 2, dimension == 2 ? 0.0 : 1.0};
     FieldFacts velocity, pressure;
     velocity.name = "velocity";
     velocity.n_components = 3;

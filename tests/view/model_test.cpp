@@ -26,7 +26,7 @@ namespace {
 VolumeFacts facts() {
     VolumeFacts volume;
     volume.path = "ball.h5";
-    volume.bounds = {-1, -2, -3, 3, 2, 1};
+    volume.bounds = volume.shown_bounds = {-1, -2, -3, 3, 2, 1};
     volume.fields.push_back({});
     volume.times = {0, 1};
     volume.has_faces = true;

@@ -505,6 +505,26 @@ def hides_all(window, elvis):
         require(one.read() == other.read(), "elvis render draws another picture of nothing than the window saves")
 
 
+def shows_several_volumes(window):
+    """Of one scene: all of them fill the view."""
+    with open("several.json", "w") as file:
+        json.dump({"version": 1, "volume": {"path": "ball.h5"}, "surfaces": [{"type": "boundary"}],
+                   "volumes": [{"time_step": 2, "offset": [6, 0, 0]}]}, file)
+    window.key("ctrl+o")
+    window.wait_for(lambda screen: screen["dialog"] == 1, "the dialog")
+    window.write(os.path.join(window.folder, "several.json"))
+    window.key("Return")
+    window.wait_for(lambda screen: len(screen["scene"].get("volumes", [])) == 1, "the scene")
+    screen = window.settle()
+    require(not any("several" in message and "opened" not in message for message in screen["messages"]), f"it says {screen['messages']}")
+    window.picture("several.png")
+    left, top, width, height = box_of(screen, "view")
+    middle = pixels("several.png", (left, top + height // 2, width, 1))[2]
+    shown = [column for column in range(width) if middle[3 * column:3 * column + 3] != b"\xff\xff\xff"]
+    require(shown and 0 < shown[0] < width // 4 and 3 * width // 4 < shown[-1] < width - 1, f"from {shown[0]} to {shown[-1]} of {width}")
+    require(middle[3 * (width // 2):3 * (width // 2) + 3] == b"\xff\xff\xff", "there is nothing between them")
+
+
 def quits(window):
     window.key("ctrl+q")
     try:
@@ -555,6 +575,7 @@ def main(elvis, folder):
         writes_numbers(window, elvis)
         shows_two_views(window)
         hides_all(window, elvis)
+        shows_several_volumes(window)
         quits(window)
     finally:
         if window:

@@ -27,15 +27,6 @@ json facts_of_picture(const picture& drawn, const elvis_picture_info& info) {
             {"remarks", remarks_json(drawn)}};
 }
 
-/** A still picture of so many pixels fewer: what is drawn for screens is of one volume. */
-picture draw_several(const Served& served, const Scene& scene, std::uint32_t divisor, const task& watch) {
-    const auto [width, height] = view::size_of(scene);
-    auto options = detail::sized<elvis_render_options>();
-    options.flags = ELVIS_RENDER_COLOR_ONLY;
-    const Scene small = view::resized(scene, {std::max(1u, width / divisor), std::max(1u, height / divisor)});
-    return served.volume.render(served.library_scene(small), options, watch);
-}
-
 } // namespace
 
 Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSchedule::Step& step, const Line& line,
@@ -43,9 +34,7 @@ Encoded draw_for_screen(const Served& served, const Scene& scene, const FrameSch
     auto options = detail::sized<elvis_screen_options>();
     options.flags = ELVIS_SCREEN_COARSE | (step.with_lines ? 0u : ELVIS_SCREEN_NO_LINES);
     options.divisor = step.divisor;
-    const picture drawn = scene.contains("volumes")
-                              ? draw_several(served, scene, step.divisor, watch)
-                              : served.volume.render_for_screen(served.library_scene(scene), options, watch);
+    const picture drawn = served.volume.render_for_screen(served.library_scene(scene), options, watch);
     const elvis_picture_info info = drawn.info();
     const auto start = std::chrono::steady_clock::now();
     Jpeg jpeg = jpeg_of(drawn.read<std::uint8_t>(ELVIS_CHANNEL_COLOR), info.width, info.height, line.shrink, line.quality);

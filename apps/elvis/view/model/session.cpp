@@ -43,7 +43,9 @@ VolumeFacts Session::open(const Scene& scene) {
         m_data = std::move(opened);
         m_key = std::move(key);
     }
-    return facts_of(*m_data, m_library);
+    VolumeFacts facts = facts_of(*m_data, m_library);
+    add_further_volumes(facts, m_library, scene);
+    return facts;
 }
 
 Scene Session::first_scene(const std::vector<std::string>& files) { return view::first_scene(m_library, opened(), files); }

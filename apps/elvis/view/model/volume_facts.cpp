@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <iterator>
 
 namespace elvis::view {
 
@@ -48,7 +49,7 @@ double VolumeFacts::diagonal() const { return diagonal_of(bounds); }
 
 elvis_extent VolumeFacts::extent() const {
     auto extent = detail::sized<elvis_extent>();
-    std::ranges::copy(bounds, extent.bounds);
+    std::ranges::copy(shown_bounds, extent.bounds);
     extent.outline = outline.empty() ? nullptr : outline.front().data();
     extent.n_outline = outline.size();
     return extent;
@@ -65,6 +66,7 @@ VolumeFacts facts_of(const data& volume, const context& library) {
     facts.dimension = info.dimension;
     facts.n_elements = info.n_elements;
     std::ranges::copy(info.bounds, facts.bounds.begin());
+    facts.shown_bounds = facts.bounds;
     facts.outline = description["outline"].get<std::vector<Vector3>>();
     facts.fields = fields_of(volume, info.n_fields);
     facts.times = description["times"].get<std::vector<double>>();
@@ -72,6 +74,31 @@ VolumeFacts facts_of(const data& volume, const context& library) {
     facts.has_faces = description["n_faces"] > 0;
     facts.shapes = shapes_of(description["classes"]);
     return facts;
+}
+
+void add_further_volumes(VolumeFacts& facts, const context& library, const Scene& scene, const std::string& folder) {
+    const std::vector<Vector3> own_outline = facts.outline;
+    for (const Json& further : part_of(scene, "volumes")) {
+        std::array<double, 6> bounds = facts.bounds;
+        std::vector<Vector3> outline = own_outline;
+        if (further.contains("path")) {
+            Json file = further;
+            for (const char* const key : {"offset", "field", "time_step"}) {
+                file.erase(key);
+            }
+            const Json named = {{"version", 1}, {"volume", file}};
+            const VolumeFacts other = facts_of(library.parse_scene(named.dump(), folder).open_volume(), library);
+            bounds = other.bounds;
+            outline = other.outline;
+        }
+        const auto offset = further.value("offset", Vector3{});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            facts.shown_bounds[axis] = std::min(facts.shown_bounds[axis], bounds[axis] + offset[axis]);
+            facts.shown_bounds[axis + 3] = std::max(facts.shown_bounds[axis + 3], bounds[axis + 3] + offset[axis]);
+        }
+        std::ranges::transform(outline, std::back_inserter(facts.outline),
+                               [&](const Vector3& point) { return plus(point, offset); });
+    }
 }
 
 } // namespace elvis::view

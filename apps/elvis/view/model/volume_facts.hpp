@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <apps/elvis/view/scene/scene.hpp>
+
 #include <core/base/vector3.hpp>
 
 #include <elvis/elvis.hpp>
@@ -25,8 +27,9 @@ struct VolumeFacts {
     std::string plugin;
     std::uint32_t dimension = 3;
     std::uint64_t n_elements = 0;
-    std::array<double, 6> bounds{}; ///< min x y z, max x y z
-    std::vector<Vector3> outline;   ///< ELVIS_DESCRIBE_OUTLINE
+    std::array<double, 6> bounds{};       ///< min x y z, max x y z
+    std::array<double, 6> shown_bounds{}; ///< with the scene's further volumes, where they stand
+    std::vector<Vector3> outline;         ///< ELVIS_DESCRIBE_OUTLINE, of all these volumes
     std::vector<FieldFacts> fields;
     std::vector<double> times;
     std::vector<std::string> boundary_groups;
@@ -39,5 +42,8 @@ struct VolumeFacts {
 };
 
 VolumeFacts facts_of(const data& volume, const context& library);
+
+/** Lets the camera see the scene's further volumes, too. Opens those that are files. `folder`: that paths are relative to. */
+void add_further_volumes(VolumeFacts& facts, const context& library, const Scene& scene, const std::string& folder = {});
 
 } // namespace elvis::view

@@ -66,7 +66,8 @@ void Workbench::open_files(const std::vector<std::string>& paths, bool asks) {
 }
 
 void Workbench::show(Scene scene, VolumeFacts facts, const std::string& file, const std::string& path) {
-    if (file.empty()) {
+    // A camera that is placed to see all of the volume does so in the window's picture.
+    if (file.empty() || !is_placed(scene)) {
         scene["image"]["size"] = size_of(m_model.scene());
     }
     ++m_volume_number;

@@ -72,6 +72,10 @@ bool edit_image(Ui& ui, Scene& scene) {
     is_changed = choice(ui, "scene/precision", "Precision", scene, "precision", {"float32", "float64"},
                         "float64 is slower, and within 1e-9 of exact arithmetic instead of 0.001") ||
                  is_changed;
+    is_changed = whole_slider(ui, "scene/samples", "Samples", scene["image"], "samples", 1, 1, 8,
+                              "Each pixel is the mean of so many across and down: lines and silhouettes are smooth. Drawn when "
+                              "nothing moves, and in saved pictures") ||
+                 is_changed;
     return whole_slider(ui, "scene/subdivisions", "Line refinement", scene, "subdivisions", usual_subdivisions, 0, 12,
                         "Contours and mesh lines: how often a pixel is halved at most to decide whether it meets one; more "
                         "leave fewer undecided") ||

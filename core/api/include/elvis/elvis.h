@@ -476,7 +476,9 @@ typedef struct elvis_screen_options {
 
 /**
  * Draws the scene for a screen, also while things move: colours alone, in ELVIS_NUMBER_UINT8, over grey where the background is
- * not opaque. The picture has the scene's size, and annotation of that size, whatever the divisor. `options` may be NULL.
+ * not opaque. The picture has the scene's size, and annotation of that size, whatever the divisor. Several samples a pixel, if
+ * the scene has them, are drawn in pictures that are not coarse. Of several volumes, annotation gets coarser with the picture.
+ * `options` may be NULL.
  */
 ELVIS_EXPORT elvis_result elvis_render_for_screen(elvis_data* data, const elvis_scene* scene,
                                                   const elvis_screen_options* options, const elvis_task* task,
