@@ -33,17 +33,24 @@ class ItemsTest(BrowserCase):
         self.page.wait(SETTLED)
 
     def control(self, label, action, *values):
-        """Does something with the control of that label, which is `c`."""
-        self.page.run(f"const c = document.querySelector(`[aria-label='${{arguments[0]}}']`); const v = arguments[1]; {action}", label, *values)
+        """Does something with the control of that label, which is `c`. Returns the state's number before."""
+        return self.page.run(f"const c = document.querySelector(`[aria-label='${{arguments[0]}}']`); const v = arguments[1]; const before = elvis.state().revision; {action}; return before", label, *values)
 
     def put(self, label, value, condition):
         """Types or chooses a value; what the scene then holds."""
-        self.control(label, "c.value = v; c.oninput?.(); c.onchange()", value)
-        self.page.wait(f"{SCENE}.{condition}")
+        before = self.control(label, "c.value = v; c.oninput?.(); c.onchange()", value)
+        self.wait_for_state(before, condition)
 
     def click(self, label, condition):
-        self.control(label, "c.click()")
-        self.page.wait(f"{SCENE}.{condition}" if condition else SETTLED)
+        before = self.control(label, "c.click()")
+        if condition:
+            self.wait_for_state(before, condition)
+        else:
+            self.page.wait(SETTLED)
+
+    def wait_for_state(self, before, condition):
+        """A later one than that, as the server has it: the page changes its own scene at once."""
+        self.page.wait(f"elvis.state().revision > {before} && {SCENE}.{condition}")
 
     def labels(self, panel="item-editor"):
         return self.page.run("""return [...document.querySelectorAll(`#${arguments[0]} :is(input, select, button)`)].map((c) => c.getAttribute('aria-label'))""", panel)
