@@ -86,6 +86,24 @@ public:
         return table;
     }
 
+    /** As from a file, but for the call of get_field_ranges after which `wants_stop` holds: `n_before_stop` go before. */
+    static elvis_runtime stopping_table() {
+        elvis_runtime table = native;
+        table.probe = nullptr;
+        table.open = nullptr;
+        table.close = nullptr;
+        table.get_field_ranges = [](elvis_volume* volume, std::uint32_t field, std::uint32_t step, std::uint64_t first,
+                                    std::uint64_t count, double* ranges, elvis_certainty* certainty) {
+            if (n_before_stop-- == 0) {
+                wants_stop = true;
+            }
+            return native.get_field_ranges(volume, field, step, first, count, ranges, certainty);
+        };
+        return table;
+    }
+    static inline std::atomic<int> n_before_stop = 0;
+    static inline std::atomic<bool> wants_stop = false;
+
     static inline double factor = 1;
     /** Calls of fill_buffer, by field and for what depends on none. */
     static inline std::array<std::atomic<int>, 2> n_fills{};
@@ -207,4 +225,48 @@ TEST_CASE("A table that lacks a function is refused by its name") {
     table.get_bounds = nullptr;
     CHECK_THROWS_WITH(context.from_runtime(table, solver.volume(), "mine"),
                       Catch::Contains("get_bounds") && Catch::Contains("mine"));
+}
+
+TEST_CASE("An isosurface that is stopped while ranges are asked for is the same the next time") {
+    const elvis::context context(own_plugins());
+    const TemporaryFolder folder;
+    std::ofstream(folder.path("input.json"))
+        << R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 1, "order": 2, "geometry_order": 2, "field": "waves"})";
+    const std::string input = folder.path("input.json"), path = folder.path("ball.h5");
+    auto conversion = elvis::detail::sized<elvis_conversion>();
+    const char* const inputs[] = {input.c_str()};
+    conversion.n_inputs = 1;
+    conversion.inputs = inputs;
+    conversion.output = path.c_str();
+    conversion.order = -1;
+    context.convert(conversion);
+    const Solver solver(path);
+    elvis::scene scene = context.make_scene();
+    scene.set("/image/size", "[32, 24]");
+    scene.set("/surfaces/-", R"({"type": "isosurface", "values": [0.2]})");
+    const elvis_runtime table = Solver::stopping_table();
+    const auto fresh = [&] { return context.from_runtime(table, solver.volume()); };
+    Solver::n_before_stop = -1;
+    Solver::wants_stop = false;
+    const std::vector<double> expected = fresh().render(scene).read<double>(ELVIS_CHANNEL_COLOR);
+    int n_stopped = 0;
+    for (int n = 0; n < 100; ++n) {
+        const elvis::data own = fresh();
+        Solver::n_before_stop = n;
+        Solver::wants_stop = false;
+        const auto options = elvis::detail::sized<elvis_render_options>();
+        try {
+            own.render(scene, options, {{}, [] { return Solver::wants_stop.load(); }});
+        } catch (const elvis::cancelled&) {
+            ++n_stopped;
+        }
+        const bool was_asked = Solver::wants_stop;
+        Solver::n_before_stop = -1;
+        Solver::wants_stop = false;
+        CHECK((own.render(scene).read<double>(ELVIS_CHANNEL_COLOR) == expected));
+        if (!was_asked) {
+            break;
+        }
+    }
+    CHECK(n_stopped >= 4);
 }

@@ -115,15 +115,18 @@ void IsovalueSet::provide_ranges(const ScalarComponent& component, const std::op
     }
     m_component = {0, 0};
     m_is_chosen = false;
-    std::vector<std::vector<ModelRange>> ranges;
-    m_models.provide(component, &ranges);
     for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
-        m_classes[index].ranges = std::move(ranges[index]);
         m_classes[index].told.clear();
         if (told) {
             m_classes[index].told =
                 told_ranges(m_device.background(), m_volume, index, *told, [this] { m_device.check_task(); });
         }
+    }
+    // Last: models that are there tell no ranges, and what comes before may be cancelled.
+    std::vector<std::vector<ModelRange>> ranges;
+    m_models.provide(component, &ranges);
+    for (std::uint32_t index = 0; index < m_classes.size(); ++index) {
+        m_classes[index].ranges = std::move(ranges[index]);
     }
     m_component = component;
 }
