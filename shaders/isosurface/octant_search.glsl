@@ -102,7 +102,11 @@ bool core_interval_search_next(const core_evaluation evaluation, const core_verd
     // The next interval is as long as this one, or twice if that was easy; the last one takes what would be left.
     const elvis_real length_next = (is_done_with ? elvis_real(4) : elvis_real(2)) * max(evaluation.half_width, evaluation.shortest);
     const elvis_real after = search.next + length_next;
-    const elvis_real from = verdict.goes_on    ? search.next
+    // Behind a root that does not count there may be another isovalue's.
+    const bool has_another = verdict.is_finished_root && !evaluation.candidate.is_only;
+    const elvis_real behind_root = evaluation.middle + verdict.cut_high;
+    const elvis_real from = has_another        ? min(search.next, behind_root)
+                            : verdict.goes_on  ? search.next
                             : verdict.cuts     ? evaluation.middle + verdict.cut_low
                             : verdict.moves_on ? search.from
                                                : evaluation.middle + interval.low;

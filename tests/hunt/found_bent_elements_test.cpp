@@ -1,0 +1,49 @@
+// Isosurfaces in strongly bent elements, of which the hunt found many pixels undecided.
+#include "found_scenes.hpp"
+#include "volumes.hpp"
+
+#include <catch2/catch.hpp>
+
+#include <iostream>
+
+namespace elvis::hunt {
+
+namespace {
+
+FrameRequest request_of(const Isosurfaces& isosurfaces, const Vector3& eye, const Vector3& look_at, const Vector3& up,
+                        double field_of_view) {
+    FrameRequest request;
+    request.width = 48;
+    request.height = 36;
+    request.camera.eye = eye;
+    request.camera.look_at = look_at;
+    request.camera.up = up;
+    request.camera.field_of_view = field_of_view;
+    Surface surface = colored_surface();
+    surface.geometry = isosurfaces;
+    request.surfaces = {surface};
+    return request;
+}
+
+void check(const Tally& tally) {
+    std::cout << "bent elements: " << tally.hits << " hits, " << tally.flagged << " of " << tally.pixels << " flagged\n";
+    CHECK(tally.hits > tally.pixels / 50);
+    CHECK(tally.far + tally.near == 0);
+    CHECK(tally.flagged <= tally.pixels / 200);
+}
+
+} // namespace
+
+TEST_CASE("Behind a layer that is found again another isovalue is not missed") {
+    // One pixel in a hundred lost a layer: the interval in which both lie was left with the first one.
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("layers.h5");
+    const PluginRegistry plugins;
+    make_volume(plugins, 38341, {}, file.path());
+    FrameRequest request = request_of(Isosurfaces{.values = {0.8087626535223886, 0.8222959236404592, 1.0300539138859814}},
+                                      {-1.8151, 1.3356, 2.3096}, {0.0032, -0.0424, 0.1786}, {0.604, 0.797, 0}, 37.8);
+    request.surfaces[0].opacity = 0.45;
+    check(judge_picture(file.path(), request, precision));
+}
+
+} // namespace elvis::hunt
