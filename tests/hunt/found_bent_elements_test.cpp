@@ -34,6 +34,19 @@ void check(const Tally& tally) {
 
 } // namespace
 
+TEST_CASE("What projection leaves open in strongly bent elements is found by intervals") {
+    // Six tetrahedra of geometry order 2. A quarter of the surface was undecided.
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const IsosurfaceMethod method = GENERATE(IsosurfaceMethod::bernstein, IsosurfaceMethod::companion);
+    const TemporaryFile file("tetrahedra.h5");
+    const PluginRegistry plugins;
+    make_volume(plugins, 35000, {}, file.path());
+    const Isosurfaces isosurfaces{.values = {-1.9167, -1.1456}, .method = method};
+    const FrameRequest request =
+        request_of(isosurfaces, {2.794, -2.395, -1.457}, {0.008, -0.251, -0.069}, {-0.61, -0.793, 0}, 36.4);
+    check(judge_picture(file.path(), request, precision));
+}
+
 TEST_CASE("Behind a layer that is found again another isovalue is not missed") {
     // One pixel in a hundred lost a layer: the interval in which both lie was left with the first one.
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
