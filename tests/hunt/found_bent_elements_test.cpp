@@ -47,6 +47,19 @@ TEST_CASE("What projection leaves open in strongly bent elements is found by int
     check(judge_picture(file.path(), request, precision));
 }
 
+TEST_CASE("Strongly bent elements are divided though nothing is skipped") {
+    // More than a quarter of the pixels were undecided.
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("hemisphere.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "hemisphere", "shape": "pyramid", "elements": [3, 1, 3], "layers": 2,)"
+                     R"( "order": 4, "geometry_order": 4, "field": "sphere"})",
+                     file.path());
+    const Isosurfaces isosurfaces{.values = {0.4275}, .skips_by_range = false};
+    const FrameRequest request =
+        request_of(isosurfaces, {0.838, -1.952, -0.027}, {0.123, 0.103, 0.378}, {-0.945, -0.328, 0}, 63.5);
+    check(judge_picture(file.path(), request, precision));
+}
+
 TEST_CASE("Behind a layer that is found again another isovalue is not missed") {
     // One pixel in a hundred lost a layer: the interval in which both lie was left with the first one.
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
