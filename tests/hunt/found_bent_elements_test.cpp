@@ -60,6 +60,17 @@ TEST_CASE("Strongly bent elements are divided though nothing is skipped") {
     check(judge_picture(file.path(), request, precision));
 }
 
+TEST_CASE("Fields of high order in strongly bent elements are decided in single precision") {
+    // A field of order 10 in six tetrahedra: 11 % of the pixels were undecided, because intervals ended when they were short,
+    // and not when rounding was all that was left.
+    const TemporaryFile file("tetrahedra.h5");
+    const PluginRegistry plugins;
+    make_volume(plugins, 16682, {}, file.path());
+    const FrameRequest request = request_of(Isosurfaces{.values = {1.5832}}, {-0.2188, -3.738, 1.1245},
+                                            {-0.128, 0.1152, -0.0716}, {-1, 0.0235, 0}, 49.3);
+    check(judge_picture(file.path(), request, Precision::float32));
+}
+
 TEST_CASE("Behind a layer that is found again another isovalue is not missed") {
     // One pixel in a hundred lost a layer: the interval in which both lie was left with the first one.
     const Precision precision = GENERATE(Precision::float32, Precision::float64);
