@@ -27,7 +27,9 @@ uint core_interval_search_begin(const core_octant octant, core_octant_span reach
     search.wide = elvis_real(0);
     search.shortest = CORE_FLOOR * CORE_NARROW;
     const elvis_real half_side = elvis_real(core_octant_half_side(octant.code));
-    search.bend = CORE_ERRORS_TELL_BENDS ? elvis_real(2) * elvis_real(octant.error) / (half_side * half_side) : CORE_FAR;
+    // Around a bent octant the ray may be in others, too.
+    const bool is_bend_known = CORE_ERRORS_TELL_BENDS && !core_is_bent(octant);
+    search.bend = is_bend_known ? elvis_real(2) * elvis_real(octant.error) / (half_side * half_side) : CORE_FAR;
     const bool is_dismissed = reached.is_inside && !reached.is_met;
     return is_dismissed && (octant.code & CORE_OCTANT_ESTIMATED) != 0u ? CORE_FLAG_ESTIMATED : 0u;
 }
