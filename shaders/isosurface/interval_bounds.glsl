@@ -10,8 +10,10 @@
 #else
 #define CORE_NARROW elvis_real(2e-3LF)
 #endif
-// Intervals are not made shorter than this share of that.
+// Intervals are not made shorter than this share of that where rounding does count more; and nowhere shorter than so many times what it
+// makes of reference coordinates.
 #define CORE_FLOOR elvis_real(0.25LF)
+#define CORE_FLOOR_ROUNDINGS elvis_real(4)
 
 #define CORE_NO_CODE 0xffffffffu
 
@@ -23,6 +25,8 @@ struct core_interval_search {
     // The field is bounded at least this far to both sides of the interval's middle: more than the interval is long where the field is so
     // flat that rounding moves the candidate farther.
     elvis_real wide;
+    // Half the length of the shortest intervals, in reference coordinates.
+    elvis_real shortest;
     // Where the mapping is linearized.
     elvis_real x, y, z;
     // Of the mapping in the octant.
@@ -37,7 +41,8 @@ struct core_interval_search {
 
 core_interval_search core_no_search() {
     const elvis_real zero = elvis_real(0);
-    return core_interval_search(CORE_NO_ELEMENT, zero, zero, zero, zero, zero, zero, zero, zero, zero, CORE_NO_CODE, CORE_FAR, 0u, 0u);
+    return core_interval_search(CORE_NO_ELEMENT, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, CORE_NO_CODE, CORE_FAR, 0u,
+                                0u);
 }
 
 struct core_evaluation {
@@ -93,7 +98,7 @@ core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search 
     const elvis_real error = ray.error + elvis_real(2) * CORE_ROUNDOFF * (core_max_norm(shift) + core_max_norm(step));
     evaluation.frame = core_frame_at(position, jacobian, error);
     evaluation.speed = core_max_norm(core_to_xi(evaluation.frame, ray.direction));
-    evaluation.shortest = CORE_FLOOR * CORE_NARROW / evaluation.speed;
+    evaluation.shortest = search.shortest / evaluation.speed;
     evaluation.half_width = elvis_real(0.5LF) * (search.to - search.from);
     evaluation.reach = max(max(evaluation.half_width, evaluation.shortest), search.wide);
     evaluation.interval = core_interval_in_element(evaluation.xi, evaluation.frame, ((shift - position) + ray.origin) + step, ray.direction,

@@ -18,8 +18,8 @@
 struct core_root {
     // The field surely takes the isovalue around it, and once only.
     bool is_proven;
-    // Another step would not make it more exact.
-    bool is_exact;
+    // Another step would not make it more exact; so little does the line leave out in the interval.
+    bool is_exact, is_mostly_rounding;
     // In the element, as far as rounding allows, and in spite of it.
     bool is_inside, is_surely_inside;
     elvis_vec3 xi;
@@ -53,15 +53,15 @@ core_root core_root_of(const core_evaluation evaluation, const core_interval_sea
     root.bend = inverse_size * inverse_size * evaluation.bend / size;
     // From xi to the root the gradient changes by this much at most, and the line's root is wrong by half the product.
     const elvis_real change = evaluation.bend * distance;
-    const bool is_mostly_rounding = evaluation.bend * interval.radius * interval.radius <= interval.error;
+    root.is_mostly_rounding = evaluation.bend * interval.radius * interval.radius <= interval.error;
     // Beside a face the half width decides, and must not be what the line leaves out elsewhere.
     const bool is_beside_face = candidate.s - candidate.half_width < interval.low || candidate.s + candidate.half_width > interval.high;
     root.is_exact = (distance <= CORE_LAST_STEP && change * inverse_size <= CORE_NORMAL_ERROR * size &&
                      change * distance * evaluation.speed <= CORE_NORMAL_ERROR * abs(interval.slope) &&
-                     (is_mostly_rounding || !is_beside_face)) ||
+                     (root.is_mostly_rounding || !is_beside_face)) ||
                     distance <= core_max_norm(frame.xi_error) ||
                     // Nothing more is to be had.
-                    (is_mostly_rounding &&
+                    (root.is_mostly_rounding &&
                      distance <= (search.moves < 3u ? elvis_real(0.03LF) : elvis_real(1)) * evaluation.speed * candidate.half_width);
     // Rounding moves the root along the ray, by a fraction of its bound, in each of the elements that share a face; and so does what the
     // line leaves out.

@@ -34,6 +34,13 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "arithmetic/count.glsl"
 
 layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+#if CORE_HAS_MASK
+// Of pixels that are drawn; zero of others.
+layout(set = 0, binding = 12, std430) readonly buffer core_mask_block { uint core_mask[]; };
+bool core_is_chosen(uint pixel) { return core_mask[pixel] != 0u; }
+#else
+bool core_is_chosen(uint pixel) { return true; }
+#endif
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
     uint core_tiles_per_row;
@@ -169,7 +176,7 @@ void main() {
     while (row < end_row) {
         core_ray ray = core_pixel_ray(along, elvis_real(row));
         const uint pixel = row * core_size.x + column;
-        const uint n_entries = core_look_beyond(pixel, ray) ? n_listed : 0u;
+        const uint n_entries = core_look_beyond(pixel, ray) && core_is_chosen(pixel) ? n_listed : 0u;
         const elvis_real stretch = length(ray.direction);
         core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
         const core_last_crossing last = core_last_crossing_of(pixel, ray.least_t);

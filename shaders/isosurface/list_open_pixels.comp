@@ -1,4 +1,5 @@
-// Lists the pixels that carry one of some flags, and takes back what they show.
+// Lists the pixels that carry one of some flags, and takes back what they show. With CORE_FILLS_MASK each pixel is told, too, whether it is
+// listed.
 
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
@@ -12,7 +13,12 @@ layout(push_constant) uniform core_parameters {
     uint core_groups_x;
     // All pixels, if zero.
     uint core_wanted_flags;
+    // These stay.
+    uint core_kept_flags;
 };
+#if CORE_FILLS_MASK
+layout(set = 0, binding = 3, std430) writeonly buffer core_mask_block { uint core_mask[]; };
+#endif
 
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
@@ -28,6 +34,11 @@ void main() {
     const uint before = subgroupExclusiveAdd(is_listed ? 1u : 0u);
     if (is_listed) {
         core_list[first + before] = pixel;
-        core_marks[pixel] = core_mark(0u, core_marks[pixel].flags & CORE_FLAG_ESTIMATED);
+        core_marks[pixel] = core_mark(0u, core_marks[pixel].flags & core_kept_flags);
     }
+#if CORE_FILLS_MASK
+    if (pixel < core_n_pixels) {
+        core_mask[pixel] = is_listed ? 1u : 0u;
+    }
+#endif
 }

@@ -11,8 +11,8 @@
 //
 //     f = value + slope . y + d,   |d| <= error.
 //
-// The curvature is that of element/prediction.glsl in the octant. Where there is no linearization, y is of the octant's box, size is
-// zero, and the error CORE_VALUE_UNKNOWN.
+// with an error of CORE_VALUE_UNKNOWN where nothing is known. The curvature is that of element/prediction.glsl in the octant. Where there
+// is no linearization, y is of the octant's box, and size and slope are zero: value and error tell the field's range.
 
 #ifndef CORE_OCTANT
 #define CORE_OCTANT

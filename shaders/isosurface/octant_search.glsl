@@ -25,8 +25,11 @@ uint core_interval_search_begin(const core_octant octant, core_octant_span reach
     search.bent_code = core_is_bent(octant) ? octant.code & ~CORE_OCTANT_ESTIMATED : CORE_NO_CODE;
     search.used = search.moves = 0u;
     search.wide = elvis_real(0);
+    search.shortest = CORE_FLOOR * CORE_NARROW;
     const elvis_real half_side = elvis_real(core_octant_half_side(octant.code));
-    search.bend = CORE_ERRORS_TELL_BENDS ? elvis_real(2) * elvis_real(octant.error) / (half_side * half_side) : CORE_FAR;
+    // Around a bent octant the ray may be in others, too.
+    const bool is_bend_known = CORE_ERRORS_TELL_BENDS && !core_is_bent(octant);
+    search.bend = is_bend_known ? elvis_real(2) * elvis_real(octant.error) / (half_side * half_side) : CORE_FAR;
     const bool is_dismissed = reached.is_inside && !reached.is_met;
     return is_dismissed && (octant.code & CORE_OCTANT_ESTIMATED) != 0u ? CORE_FLAG_ESTIMATED : 0u;
 }
@@ -41,8 +44,8 @@ struct core_verdict {
     // It cannot be decided; nor can anything behind it.
     bool is_stuck, is_broken;
     // What is next: the interval behind it; what is left from cut_low to cut_high; the same one, with the mapping linearized nearer to it
-    // or the field bounded farther around it. Otherwise its first half.
-    bool goes_on, cuts, moves_on, widens;
+    // or the field bounded farther around it. Otherwise its first half. Shorter intervals than before may follow.
+    bool goes_on, cuts, moves_on, widens, narrows;
     elvis_real cut_low, cut_high;
 };
 
@@ -78,12 +81,17 @@ core_verdict core_judge_interval(const core_evaluation evaluation, const core_ro
     verdict.cut_high = root.is_proven || is_narrow ? to : min(to, interval.high);
     const bool is_cut = is_narrow || (interval.is_known && verdict.cut_high - verdict.cut_low < narrow);
 
-    const bool is_short = evaluation.half_width < evaluation.shortest;
+    // Of fields of high order the line may leave out more than rounding does, however short the interval is.
+    verdict.narrows = evaluation.half_width < evaluation.shortest && !is_done_with && !root.is_proven && !root.is_mostly_rounding &&
+                      search.wide == elvis_real(0) &&
+                      search.shortest > CORE_FLOOR_ROUNDINGS * core_max_norm(evaluation.frame.xi_error);
+    const bool is_short = evaluation.half_width < evaluation.shortest && !verdict.narrows;
     const elvis_real wider = core_wider(candidate);
     verdict.widens = is_short && !is_done_with && !root.is_proven && !is_cut && wider > elvis_real(1.5LF) * search.wide &&
                      wider * evaluation.speed < CORE_WIDEST;
     const bool is_nearest =
-        interval.radius <= max(CORE_NARROW, elvis_real(2) * search.wide * evaluation.speed) || search.moves >= CORE_MOST_MOVES;
+        interval.radius <= max(search.shortest / CORE_FLOOR, elvis_real(2) * search.wide * evaluation.speed) ||
+        search.moves >= CORE_MOST_MOVES;
     verdict.is_stuck = is_active && is_short && !is_done_with && !verdict.widens && !(is_cut && search.moves < CORE_MOST_MOVES) &&
                        is_nearest && !ends_here;
     verdict.goes_on = is_done_with || verdict.is_finished_root || verdict.is_stuck || verdict.is_broken;
@@ -102,7 +110,11 @@ bool core_interval_search_next(const core_evaluation evaluation, const core_verd
     // The next interval is as long as this one, or twice if that was easy; the last one takes what would be left.
     const elvis_real length_next = (is_done_with ? elvis_real(4) : elvis_real(2)) * max(evaluation.half_width, evaluation.shortest);
     const elvis_real after = search.next + length_next;
-    const elvis_real from = verdict.goes_on    ? search.next
+    // Behind a root that does not count there may be another isovalue's.
+    const bool has_another = verdict.is_finished_root && !evaluation.candidate.is_only;
+    const elvis_real behind_root = evaluation.middle + verdict.cut_high;
+    const elvis_real from = has_another        ? min(search.next, behind_root)
+                            : verdict.goes_on  ? search.next
                             : verdict.cuts     ? evaluation.middle + verdict.cut_low
                             : verdict.moves_on ? search.from
                                                : evaluation.middle + interval.low;
@@ -113,8 +125,9 @@ bool core_interval_search_next(const core_evaluation evaluation, const core_verd
     // Behind the only isovalue of the interval, the interval is over.
     const elvis_real after_cut = evaluation.candidate.is_only ? search.next : min(search.next, evaluation.middle + verdict.cut_high);
     search.next = verdict.goes_on ? to : verdict.cuts ? after_cut : verdict.moves_on ? search.next : to;
-    const bool is_short = evaluation.half_width < evaluation.shortest;
+    const bool is_short = evaluation.half_width < evaluation.shortest && !verdict.narrows;
     search.moves = (verdict.moves_on && !verdict.widens) || (verdict.cuts && is_short) ? search.moves + 1u : 0u;
+    search.shortest *= verdict.narrows ? elvis_real(0.25LF) : elvis_real(1);
     search.wide = verdict.widens ? core_wider(evaluation.candidate) : verdict.goes_on ? elvis_real(0) : search.wide;
     const bool has_more = from < search.last && from < to && from <= nearest_end;
     const bool is_open = verdict.is_stuck || (verdict.is_broken && (!is_done_with || has_more));

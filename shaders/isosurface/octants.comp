@@ -30,7 +30,7 @@ void core_write_field(uint at, core_model model, core_octant_place place, core_o
     const elvis_real reach = model.remainder + steepness * place.half_side + lost;
     core_write_vector(at + 12u, is_known ? vec3(mapping.size * model.slope) : vec3(0));
     core_words[at + 15u] = floatBitsToUint(is_known ? float(at_middle) : 0.0);
-    core_words[at + 16u] = floatBitsToUint(is_known && mapping.is_linear ? float(error) : CORE_VALUE_UNKNOWN);
+    core_words[at + 16u] = floatBitsToUint(is_known ? float(mapping.is_linear ? error : reach) : CORE_VALUE_UNKNOWN);
     core_words[at + 24u] = floatBitsToUint(is_known ? float(at_middle - reach) : -CORE_VALUE_UNKNOWN);
     core_words[at + 25u] = floatBitsToUint(is_known ? float(at_middle + reach) : CORE_VALUE_UNKNOWN);
 }

@@ -36,12 +36,13 @@ void add_for_bends(std::vector<KernelUse>& uses, KernelUse use) {
 
 void add_pixel_kernels(std::vector<KernelUse>& uses) {
     for (const char* kernel :
-         {"picture/background", "picture/blend", "picture/condition", "isosurface/list_open_pixels", "picture/lic",
-          "picture/lic_component", "picture/lic_directions", "picture/lic_owners", "picture/line_stretches", "picture/merge",
-          "picture/occlude", "picture/order_layers", "picture/screen", "picture/take_layer", "volume/volume_begin",
-          "volume/volume_finish", "volume/volume_runs", "volume/volume_transparency"}) {
+         {"picture/background", "picture/blend", "picture/condition", "picture/lic", "picture/lic_component",
+          "picture/lic_directions", "picture/lic_owners", "picture/line_stretches", "picture/merge", "picture/occlude",
+          "picture/order_layers", "picture/screen", "picture/take_layer", "volume/volume_begin", "volume/volume_finish",
+          "volume/volume_runs", "volume/volume_transparency"}) {
         uses.push_back({.kernel = kernel, .choices = {pixel_group}});
     }
+    uses.push_back({.kernel = "isosurface/list_open_pixels", .choices = {pixel_group, no_or_yes("CORE_FILLS_MASK")}});
     uses.push_back({.kernel = "picture/settle_flags", .choices = {pixel_group, {"CORE_PIXELS_EACH", {"8u"}}}});
     uses.push_back({.kernel = "picture/color",
                     .choices = {pixel_group, no_or_yes("CORE_IS_LIT"), no_or_yes("CORE_HAS_LINES"),
@@ -203,7 +204,10 @@ void add_isosurface_kernels(std::vector<KernelUse>& uses) {
         return made;
     };
     uses.push_back(use("tiles/ray_tiles", octants, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_LISTS_TILES")}));
-    uses.push_back(use("isosurface/isosurface", octants, {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS")}));
+    uses.push_back(use("isosurface/isosurface", octants,
+                       {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS"), no("CORE_HAS_MASK")}));
+    uses.push_back(use("isosurface/isosurface", octants,
+                       {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_DESCENDS"), yes("CORE_HAS_MASK")}));
     for (const bool is_nested : {true, false}) {
         KernelUse projection = use("isosurface/isosurface_projection", {"core_elements", "core_nodes", "core_models"},
                                    {no_or_yes("CORE_USES_COLLEAGUE"), is_nested ? no("CORE_PLAIN") : yes("CORE_PLAIN")});

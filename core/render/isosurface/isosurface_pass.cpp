@@ -53,8 +53,10 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
         } else {
             own.name = "isosurface";
             own.kernel = "isosurface/isosurface.comp";
-            own.defines.emplace_back("CORE_DESCENDS", role == Role::deep_pixels ? "1" : "0");
-            own.bindings = buffer_bindings({.uniform = 1, .storage = 11});
+            const bool has_mask = role == Role::chosen_pixels;
+            own.defines.emplace_back("CORE_DESCENDS", role == Role::pixels ? "0" : "1");
+            own.defines.emplace_back("CORE_HAS_MASK", has_mask ? "1" : "0");
+            own.bindings = buffer_bindings({.uniform = 1, .storage = has_mask ? 12u : 11u});
             own.push_constant_bytes = sizeof(Parameters);
         }
         own.name += " of element class " + std::to_string(element_class);
@@ -137,14 +139,29 @@ void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surf
     }
     constexpr std::uint32_t left_open = pixel_flag::isosurface_undecided | pixel_flag::work_limit;
     if (m_method == IsosurfaceMethod::interval) {
-        draw_by_intervals(first_surface, target, counts);
-        draw_by_projection(m_method, left_open, first_surface, target, counts);
+        draw_by_intervals(first_surface, target, nullptr, counts);
     } else {
         draw_by_projection(m_method, 0, first_surface, target, counts);
     }
+    // A fixed degree is asked for as it is.
+    if (m_method != IsosurfaceMethod::interval && m_degree == 0) {
+        draw_again_by_intervals(left_open, first_surface, target, counts);
+    }
     // Drivers end the many loops of eigenvalues where rays have many of them.
-    if (m_method == IsosurfaceMethod::companion) {
+    if (m_method != IsosurfaceMethod::bernstein || m_degree == 0) {
         draw_by_projection(IsosurfaceMethod::bernstein, left_open, first_surface, target, counts);
+    }
+}
+
+/** Projection leaves strongly bent elements open, or estimates where the ray is in them; octants of these are nearly linear. */
+void IsosurfacePass::draw_again_by_intervals(std::uint32_t left_open, std::uint32_t first_surface, const LayerTarget& target,
+                                             FrameCounts& counts) {
+    const Buffer& mask = provide_buffer(m_mask, m_device, target.layer.n_pixels() * sizeof(std::uint32_t));
+    // All pixels have this flag, and keep it, where no bounds are known.
+    const bool has_bounds = !m_isovalue_set.rests_on_estimates();
+    const std::uint32_t wanted = left_open | (has_bounds ? pixel_flag::estimated : 0);
+    if (m_projection.list(target.layer, wanted, has_bounds ? 0 : pixel_flag::estimated, &mask) > 0) {
+        draw_by_intervals(first_surface, target, &mask, counts);
     }
 }
 
@@ -152,7 +169,7 @@ void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t f
                                         const LayerTarget& target, FrameCounts& counts) {
     const IsosurfaceProjection::Picture picture{
         m_frame, *m_isovalues, *m_bending, *m_last, target, m_component, static_cast<std::uint32_t>(m_values.size()), m_round};
-    if (m_projection.list(target.layer, flags) == 0) {
+    if (m_projection.list(target.layer, flags, pixel_flag::estimated) == 0) {
         return;
     }
     for (const ClassKernels& kernels : m_kernels) {
@@ -196,7 +213,8 @@ std::vector<TileList::Ranges> IsosurfacePass::list_tiles(const Layer& layer, con
     return ranges;
 }
 
-void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts) {
+void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, const Buffer* mask,
+                                       FrameCounts& counts) {
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const TileRows wanted = target.tile_rows(tile_height);
@@ -221,18 +239,21 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                               target.beyond ? 1u : 0u,
                               m_round,
                               m_extent};
-        const std::array<const Buffer*, 12> bindings = {&m_frame,
-                                                        &layer.samples,
-                                                        &layer.normals,
-                                                        &m_counts,
-                                                        &layer.marks,
-                                                        &*kernels.tiles,
-                                                        &*m_isovalues,
-                                                        &beyond,
-                                                        target.places,
-                                                        &*m_bending,
-                                                        &kernels.listed->buffer(),
-                                                        &*m_last};
+        std::vector<const Buffer*> bindings = {&m_frame,
+                                               &layer.samples,
+                                               &layer.normals,
+                                               &m_counts,
+                                               &layer.marks,
+                                               &*kernels.tiles,
+                                               &*m_isovalues,
+                                               &beyond,
+                                               target.places,
+                                               &*m_bending,
+                                               &kernels.listed->buffer(),
+                                               &*m_last};
+        if (mask) {
+            bindings.push_back(mask);
+        }
         const auto draw_tiles = [&](Role role, const TileList::Range& range) {
             in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first_listed = range.first + first;
@@ -240,8 +261,8 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                     .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / m_rows);
             });
         };
-        draw_tiles(Role::pixels, ranges[index].shallow);
-        draw_tiles(Role::deep_pixels, ranges[index].deep);
+        draw_tiles(mask ? Role::chosen_pixels : Role::pixels, ranges[index].shallow);
+        draw_tiles(mask ? Role::chosen_pixels : Role::deep_pixels, ranges[index].deep);
         take_counts(layer, m_counts, n_counts, [&counts](std::span<const std::uint32_t> found) {
             counts.field_evaluations += found[evaluations];
             counts.excluded_intervals += found[excluded] + found[outside];

@@ -41,8 +41,9 @@ public:
     const Buffer& frame() const { return m_frame; }
 
 private:
-    /** Lists for tiles of pixels; tiles whose lists hold leaves only; tiles that many elements may touch. */
-    enum class Role { tiles, pixels, deep_pixels };
+    /** Lists for tiles of pixels; tiles whose lists hold leaves only; tiles that many elements may touch; chosen pixels of any.
+     */
+    enum class Role { tiles, pixels, deep_pixels, chosen_pixels, n_roles };
     struct ClassKernels {
         /** What they have in common. */
         KernelRequest request;
@@ -55,7 +56,7 @@ private:
         std::optional<Buffer> tiles;
         std::optional<TileList> listed;
         /** By role, and whether there is one isovalue. Compiled when first needed. */
-        std::array<std::array<std::unique_ptr<ComposedKernel>, 2>, 3> kernels;
+        std::array<std::array<std::unique_ptr<ComposedKernel>, 2>, static_cast<std::size_t>(Role::n_roles)> kernels;
 
         const ComposedKernel& provide(const Device& device, Role role, bool has_one_isovalue);
         /** Drops kernels that were composed with less room. */
@@ -63,7 +64,11 @@ private:
     };
 
     std::vector<TileList::Ranges> list_tiles(const Layer& layer, const TileRows& wanted);
-    void draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
+    /** `mask`: not zero in pixels that are drawn; all are without it. */
+    void draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, const Buffer* mask, FrameCounts& counts);
+    /** Pixels that carry one of these flags, or rest on estimates, afresh. */
+    void draw_again_by_intervals(std::uint32_t left_open, std::uint32_t first_surface, const LayerTarget& target,
+                                 FrameCounts& counts);
     /** Pixels that carry one of these flags, afresh; all if there are none. */
     void draw_by_projection(IsosurfaceMethod method, std::uint32_t flags, std::uint32_t first_surface,
                             const LayerTarget& target, FrameCounts& counts);
@@ -87,7 +92,7 @@ private:
     Buffer m_counts;
     std::optional<Buffer> m_isovalues;
     /** Kept from frame to frame. */
-    std::optional<Buffer> m_bending;
+    std::optional<Buffer> m_bending, m_mask;
     /** What each round tells the next one of the crossings that it found (shaders/isosurface/isosurface_bindings.glsl). */
     std::optional<Buffer> m_last;
     std::uint32_t m_round = 0;

@@ -18,7 +18,7 @@ constexpr std::uint32_t pixels_a_dispatch = 1u << 13;
 enum Count : std::size_t { evaluations, certified, verified, undecided, crossings, failures, fits, degrees, n_counts };
 
 struct ListParameters {
-    std::uint32_t n_pixels, groups_x, wanted_flags;
+    std::uint32_t n_pixels, groups_x, wanted_flags, kept_flags;
 };
 
 struct Parameters {
@@ -53,16 +53,27 @@ const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request
     return m_kernels.try_emplace(key, m_device, own).first->second;
 }
 
-std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags) {
-    if (!m_list_kernel) {
-        m_list_kernel = std::make_unique<ComposedKernel>(
-            m_device, pixel_kernel("isosurface/list_open_pixels", Precision::float32, {.storage = 3}, sizeof(ListParameters)));
+const ComposedKernel& IsosurfaceProjection::provide_list_kernel(bool fills_mask) {
+    std::unique_ptr<ComposedKernel>& kernel = m_list_kernels[fills_mask ? 1 : 0];
+    if (!kernel) {
+        KernelRequest request = pixel_kernel("isosurface/list_open_pixels", Precision::float32,
+                                             {.storage = fills_mask ? 4u : 3u}, sizeof(ListParameters));
+        request.defines.emplace_back("CORE_FILLS_MASK", fills_mask ? "1" : "0");
+        kernel = std::make_unique<ComposedKernel>(m_device, request);
     }
+    return *kernel;
+}
+
+std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags, std::uint32_t kept, const Buffer* mask) {
     provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const ListParameters parameters{n_pixels, pixel_groups_x, flags};
-    dispatch_rows(*m_list_kernel, {&layer.marks, &*m_list, &m_counts}, std::as_bytes(std::span(&parameters, 1)), layer);
+    const ListParameters parameters{n_pixels, pixel_groups_x, flags, kept};
+    std::vector<const Buffer*> bindings{&layer.marks, &*m_list, &m_counts};
+    if (mask) {
+        bindings.push_back(mask);
+    }
+    dispatch_rows(provide_list_kernel(mask != nullptr), bindings, std::as_bytes(std::span(&parameters, 1)), layer);
     m_n_listed = m_counts.read_items<std::uint32_t>(1)[0];
     return m_n_listed;
 }

@@ -9,6 +9,7 @@
 #include <core/shader/composer.hpp>
 #include <core/volume/isosurface/isovalue_set.hpp>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -21,9 +22,11 @@ class IsosurfaceProjection {
 public:
     explicit IsosurfaceProjection(const Device& device);
 
-    /** Takes the pixels that carry one of these flags, or all if there are none, and clears their marks. Returns their number.
+    /**
+     * Takes the pixels that carry one of these flags, or all if there are none, and clears their marks but for the flags
+     * `kept`. Returns their number. `mask`, if there is one: a number a pixel, which becomes 1 for these and 0 for others.
      */
-    std::uint32_t list(const Layer& layer, std::uint32_t flags);
+    std::uint32_t list(const Layer& layer, std::uint32_t flags, std::uint32_t kept, const Buffer* mask = nullptr);
 
     struct Picture {
         const Buffer &frame, &isovalues, &bending, &last;
@@ -40,10 +43,12 @@ private:
     /** Element class, whether roots are eigenvalues, degree. */
     using Key = std::tuple<std::uint32_t, bool, std::uint32_t>;
     const ComposedKernel& provide(const KernelRequest& request, const Key& key);
+    const ComposedKernel& provide_list_kernel(bool fills_mask);
 
     const Device& m_device;
     std::map<Key, ComposedKernel> m_kernels;
-    std::unique_ptr<ComposedKernel> m_list_kernel;
+    /** Without a mask, and with one. */
+    std::array<std::unique_ptr<ComposedKernel>, 2> m_list_kernels;
     Buffer m_counts;
     std::optional<Buffer> m_list;
     std::uint32_t m_n_listed = 0;

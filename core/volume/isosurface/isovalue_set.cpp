@@ -55,10 +55,12 @@ struct IsovalueSet::Octants {
         return elvis::holds_any({number(octant, octant_range), number(octant, octant_range + 1)}, isovalues);
     }
     bool is_linear(std::size_t octant) const { return number(octant, octant_scale) > 0; }
-    /** Whether an octant of this level is to be divided. */
+    /** Whether an octant of this level is bent so much that nothing is found in it. */
+    bool is_bent(std::size_t octant, std::uint32_t level) const { return !is_linear(octant) && level < most_bent_levels; }
+    /** Whether an octant of this level is to be divided, if it is to hold an isovalue. */
     bool is_rough(std::size_t octant, std::uint32_t level) const {
         if (!is_linear(octant)) {
-            return level < most_bent_levels;
+            return is_bent(octant, level);
         }
         double slope = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -248,6 +250,12 @@ void IsovalueSet::make_octants() {
     }
 }
 
+/** Where nothing is skipped, only for what cannot be found otherwise. */
+bool IsovalueSet::is_divided(const Octants& octants, std::size_t octant, std::uint32_t level) const {
+    return m_choice.skips_by_range ? octants.is_rough(octant, level)
+                                   : octants.is_bent(octant, level) && octants.holds_any(octant, m_choice.isovalues);
+}
+
 void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape, OctantsAhead& ahead) {
     // Index into what is chosen, by local element.
     std::vector<std::uint32_t> place(of_class.ranges.size());
@@ -258,11 +266,11 @@ void IsovalueSet::make_octants(ClassOctants& of_class, elvis_shape shape, Octant
     }
     Octants octants{ahead(wanted)};
     Octants done;
-    for (std::uint32_t level = 0; m_choice.skips_by_range; ++level) {
+    for (std::uint32_t level = 0;; ++level) {
         wanted.clear();
         Octants undivided;
         for (std::size_t i = 0; i < octants.size(); ++i) {
-            if (octants.is_rough(i, level)) {
+            if (is_divided(octants, i, level)) {
                 add_octants(wanted, octants.word(i, octant_element), octants.word(i, octant_code), shape);
             } else {
                 undivided.add(octants, i);

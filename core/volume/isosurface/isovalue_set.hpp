@@ -91,6 +91,7 @@ private:
     void make_room(ClassOctants& of_class, std::uint64_t n_octants) const;
     void make_octants();
     void make_octants(ClassOctants& of_class, elvis_shape shape, OctantsAhead& ahead);
+    bool is_divided(const Octants& octants, std::size_t octant, std::uint32_t level) const;
     /** `place`: of local elements in what is chosen. */
     void write_octants(ClassOctants& of_class, std::span<const std::uint32_t> place, const Octants& octants);
     /** In place of a linearization, the element's box. */

@@ -114,7 +114,7 @@ TEST_CASE("where rounding of the field moves a crossing too far, the pixel says 
     }
 }
 
-TEST_CASE("where a part of the ray in a strongly bent element may be missed, the pixel says so") {
+TEST_CASE("where projection may miss a part of the ray in a strongly bent element, bounds decide") {
     // Rays around one in which one was missed once: they pass elements by so closely that only estimates tell that they do.
     const RandomVolume random = only_pixel(random_volume(1303), 142, 29);
     const IsosurfaceComparison comparison =
@@ -123,7 +123,8 @@ TEST_CASE("where a part of the ray in a strongly bent element may be missed, the
     INFO(to_text(comparison));
     CHECK(comparison.n_hits == comparison.n_pixels);
     CHECK(comparison.n_wrong == 0);
-    CHECK(comparison.n_flagged > comparison.n_pixels / 2);
+    // Projection alone leaves most of them undecided, and has to.
+    CHECK(comparison.n_flagged <= comparison.n_pixels / 10);
 }
 
 TEST_CASE("random fields of which bounds leave many rays open are where the oracle finds them") {
