@@ -154,7 +154,7 @@ TEST_CASE("The table of numbers has all digits, places and what is not certain")
     const std::vector<std::string> lines = lines_of(table_text({row, of_volume}));
     REQUIRE(lines.size() == 3);
     CHECK(lines[1].find("Cut plane a\tpressure\t0\t0.33333333333333331\t0\t2\t0\t0.16666666666666666\t") == 0);
-    CHECK(lines[1].find("larger than the tolerance; of the whole surface") != std::string::npos);
+    CHECK(lines[1].find("larger than the tolerance; of all of it, with what is cut away") != std::string::npos);
     for (const std::string& line : lines) {
         CHECK(std::count(line.begin(), line.end(), '\t') == 16);
     }
@@ -210,6 +210,12 @@ TEST_CASE("What is shown can be written, under names that its files have") {
     CHECK(all[4].kind == Kind::line_probe);
     CHECK(all[5].kind == Kind::grid);
     CHECK(writables_of(scene, flow_facts(2), std::nullopt).size() == 3);
+    CHECK_FALSE(all[3].what.is_clipped);
+    Scene cut = scene;
+    cut["threshold"] = "pressure > 0.2";
+    for (const Writable& what : writables_of(cut, flow_facts(), std::nullopt)) {
+        CHECK(what.what.is_clipped);
+    }
     CHECK(usual_grid(flow_facts()) == std::array<std::size_t, 3>{64, 64, 16});
     CHECK(usual_grid(flow_facts(2)) == std::array<std::size_t, 3>{64, 64, 1});
     for (const Writable& what : all) {

@@ -22,6 +22,7 @@ Writable lines_of(const Scene& scene, std::size_t index, const std::string& scen
     lines.what.of = item_label(scene, {ItemKind::surface, index});
     lines.what.field = scene["surfaces"][index].value("field", scenes_field);
     lines.what.time_step = time_step_of(scene);
+    lines.what.is_clipped = scene["surfaces"][index].contains("clip") || scene.contains("threshold");
     return lines;
 }
 
@@ -32,6 +33,7 @@ NumbersQuestion elements_of(const Scene& scene, const std::string& scenes_field)
     elements.domain = ELVIS_DOMAIN_BOUNDARY;
     elements.field = scenes_field;
     elements.time_step = time_step_of(scene);
+    elements.is_clipped = scene.contains("threshold");
     return elements;
 }
 
@@ -96,11 +98,7 @@ WrittenReport write_mesh(const context& library, const data& volume, const scene
     wanted.tolerance = file.tolerance;
     const extracted mesh = extract(library, volume, wanted, watch);
     commands::write_mesh(mesh, commands::mesh_columns(volume, fields), file.path);
-    WrittenReport report{commands::report_of(mesh.info), commands::doubts_of(mesh.info)};
-    if (what.is_clipped) {
-        report.facts.emplace_back("of the whole surface, with what is cut away in the picture");
-    }
-    return report;
+    return {commands::report_of(mesh.info), commands::doubts_of(mesh.info)};
 }
 
 WrittenReport write_lines(const data& volume, const scene& shown, const DataFile& file, const task& watch) {
@@ -110,7 +108,7 @@ WrittenReport write_lines(const data& volume, const scene& shown, const DataFile
     return {commands::report_of(lines), {}};
 }
 
-WrittenReport write_samples(const data& volume, const scene& shown, const DataFile& file, const task& watch) {
+WrittenReport write_table(const data& volume, const scene& shown, const DataFile& file, const task& watch) {
     commands::SampleWishes wishes;
     wishes.fields = fields_of(volume, shown, file);
     wishes.time_step = file.what.what.time_step;
@@ -131,6 +129,19 @@ WrittenReport write_samples(const data& volume, const scene& shown, const DataFi
         report.doubts.push_back("where elements begin and end is not told: " + table.no_breaks_because);
     }
     return report;
+}
+
+WrittenReport write(const context& library, const data& volume, const scene& shown, const DataFile& file, const task& watch) {
+    switch (file.what.kind) {
+    case Writable::Kind::mesh:
+        return write_mesh(library, volume, shown, file, watch);
+    case Writable::Kind::lines:
+        return write_lines(volume, shown, file, watch);
+    case Writable::Kind::line_probe:
+    case Writable::Kind::grid:
+        break;
+    }
+    return write_table(volume, shown, file, watch);
 }
 
 } // namespace
@@ -157,6 +168,7 @@ std::vector<Writable> writables_of(const Scene& scene, const VolumeFacts& volume
     Writable other;
     other.what.field = scenes_field;
     other.what.time_step = time_step_of(scene);
+    other.what.is_clipped = scene.contains("threshold");
     if (line) {
         other.kind = Writable::Kind::line_probe;
         other.line = *line;
@@ -222,16 +234,11 @@ std::array<std::size_t, 3> usual_grid(const VolumeFacts& volume) {
 
 WrittenReport write_data_file(const context& library, const data& volume, const scene& shown, const DataFile& file,
                               const task& watch) {
-    switch (file.what.kind) {
-    case Writable::Kind::mesh:
-        return write_mesh(library, volume, shown, file, watch);
-    case Writable::Kind::lines:
-        return write_lines(volume, shown, file, watch);
-    case Writable::Kind::line_probe:
-    case Writable::Kind::grid:
-        break;
+    WrittenReport report = write(library, volume, shown, file, watch);
+    if (file.what.what.is_clipped) {
+        report.facts.emplace_back("of all of it, with what is cut away in the picture");
     }
-    return write_samples(volume, shown, file, watch);
+    return report;
 }
 
 } // namespace elvis::view

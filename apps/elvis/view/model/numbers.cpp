@@ -98,6 +98,7 @@ std::vector<NumbersQuestion> questions_of(const Scene& scene, const VolumeFacts&
     for (NumbersQuestion& question : questions) {
         question.time_step = time_step_of(scene);
         question.warp = part_of(scene, "warp");
+        question.is_clipped = question.is_clipped || scene.contains("threshold");
     }
     return questions;
 }
@@ -118,7 +119,7 @@ std::string remark_of(const Numbers& row) {
         add("extrema are sampled");
     }
     if (row.question.is_clipped) {
-        add("of the whole surface, without what is cut away");
+        add("of all of it, with what is cut away in the picture");
     }
     return text;
 }

@@ -31,7 +31,7 @@ struct NumbersQuestion {
     std::uint32_t time_step = 0;
     /** Empty without. */
     Json warp{};
-    /** Parts of the surface are cut away in the picture; the numbers are of all of it. */
+    /** Parts are cut away in the picture, by planes or a threshold; the numbers are of all of it. */
     bool is_clipped = false;
 
     friend bool operator==(const NumbersQuestion&, const NumbersQuestion&) = default;

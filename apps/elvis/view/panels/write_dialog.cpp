@@ -23,12 +23,13 @@ void choose_what(Ui& ui) {
     for (const Writable& writable : all) {
         labels.push_back(writable.what.of);
     }
-    const auto present = std::ranges::find(all, state.file.what);
-    auto chosen = static_cast<std::size_t>(present == all.end() ? 0 : present - all.begin());
+    // By its name: while time goes on, all else changes.
+    const auto present = std::ranges::find(labels, state.file.what.what.of);
+    auto chosen = static_cast<std::size_t>(present == labels.end() ? 0 : present - labels.begin());
     if (choice(ui, "write/what", "What", chosen, labels, "One of what the picture shows, the line, or a grid of points")) {
-        state.file.what = all[chosen];
-        fit_ending(state.file.what.kind, state.name);
+        fit_ending(all[chosen].kind, state.name);
     }
+    state.file.what = all[chosen];
 }
 
 void edit_values(Ui& ui, DataFile& file) {
