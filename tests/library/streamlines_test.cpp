@@ -144,6 +144,33 @@ TEST_CASE("Seeds on a line, on a plane and in the volume are the points that the
     CHECK(volume.render(shown).info().n_hit_pixels > 500);
 }
 
+TEST_CASE("Lines of a scene with a displacement are those of the displaced volume") {
+    const context library(own_plugins());
+    const TemporaryFolder folder;
+    const data volume = library.open(convert(
+        library, folder, R"({"generator": 1, "mesh": "box", "elements": [2, 2, 2], "fields": ["sphere", "taylor-green"]})"));
+    scene shown =
+        with_surface(library, R"s({"type": "streamlines", "flow": "grad(x)", "seeds": [[0.1, 0.2, 0.3]]})s", "float32");
+    const traced undisplaced = volume.trace(shown, 0);
+    shown.set("/warp", R"({"field": "velocity", "factor": 0.2})");
+    const traced lines = volume.trace(shown, 0, {"sphere"});
+    auto how = detail::sized<elvis_warp>();
+    how.field = "velocity";
+    how.factor = 0.2;
+    const std::vector<double> seed{0.1, 0.2, 0.3};
+    const elvis_string field = "sphere";
+    auto wanted = detail::sized<elvis_tracing>();
+    wanted.field = "grad(x)";
+    wanted.seeds = seed.data();
+    wanted.n_seeds = 1;
+    wanted.fields = &field;
+    wanted.n_fields = 1;
+    const traced displaced = volume.warp(how).trace(wanted);
+    CHECK(lines.positions == displaced.positions);
+    CHECK(lines.values == displaced.values);
+    CHECK(lines.positions != undisplaced.positions);
+}
+
 TEST_CASE("Streamlines come as arrays, with values at their points") {
     const context library(own_plugins());
     const TemporaryFolder folder;
