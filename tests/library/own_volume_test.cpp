@@ -116,9 +116,11 @@ private:
     elvis_volume* m_volume = nullptr;
 };
 
-std::string make_volume(const elvis::context& context, const TemporaryFolder& folder) {
-    std::ofstream(folder.path("input.json")) << R"({"generator": 1, "mesh": "waves", "elements": [3, 3, 3], "geometry_order": 2,
-        "fields": [{"field": "polynomial", "name": "p", "coefficients": [[2, 1, 0, 1], [0, 0, 1, 1]]}, "sphere"]})";
+constexpr const char* two_fields = R"({"generator": 1, "mesh": "waves", "elements": [3, 3, 3], "geometry_order": 2,
+    "fields": [{"field": "polynomial", "name": "p", "coefficients": [[2, 1, 0, 1], [0, 0, 1, 1]]}, "sphere"]})";
+
+std::string make_volume(const elvis::context& context, const TemporaryFolder& folder, const char* description = two_fields) {
+    std::ofstream(folder.path("input.json")) << description;
     const std::string input = folder.path("input.json"), output = folder.path("volume.h5");
     auto conversion = elvis::detail::sized<elvis_conversion>();
     const char* const inputs[] = {input.c_str()};
@@ -230,17 +232,9 @@ TEST_CASE("A table that lacks a function is refused by its name") {
 TEST_CASE("An isosurface that is stopped while ranges are asked for is the same the next time") {
     const elvis::context context(own_plugins());
     const TemporaryFolder folder;
-    std::ofstream(folder.path("input.json"))
-        << R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 1, "order": 2, "geometry_order": 2, "field": "waves"})";
-    const std::string input = folder.path("input.json"), path = folder.path("ball.h5");
-    auto conversion = elvis::detail::sized<elvis_conversion>();
-    const char* const inputs[] = {input.c_str()};
-    conversion.n_inputs = 1;
-    conversion.inputs = inputs;
-    conversion.output = path.c_str();
-    conversion.order = -1;
-    context.convert(conversion);
-    const Solver solver(path);
+    const Solver solver(make_volume(
+        context, folder,
+        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 1, "order": 2, "geometry_order": 2, "field": "waves"})"));
     elvis::scene scene = context.make_scene();
     scene.set("/image/size", "[32, 24]");
     scene.set("/surfaces/-", R"({"type": "isosurface", "values": [0.2]})");

@@ -4,6 +4,7 @@
 #include <tests/support/test_volumes.hpp>
 
 #include <core/expression/expression.hpp>
+#include <core/plugin_host/all_bounds.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/probe/probe.hpp>
 
@@ -276,6 +277,20 @@ TEST_CASE("a probed point on shared faces reports the lowest element and the oth
     CHECK(points[4].fields.empty());
     CHECK_FALSE(points[5].element.has_value());
     CHECK_THROWS_WITH(prober.probe(positions, 7), Catch::Contains("time step 7"));
+}
+
+TEST_CASE("bounds that several threads ask for are those of all elements, each in its place") {
+    // More than one thread asks for at once.
+    const TemporaryFile file("many.h5");
+    generate(R"({"generator": 1, "mesh": "waves", "shape": "mixed", "elements": [9, 9, 9], "order": 1, "field": "sphere"})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    REQUIRE(volume.n_elements() > 4096);
+    std::vector<double> boxes(6 * volume.n_elements());
+    const elvis_certainty certainty = volume.bounds(0, volume.n_elements(), boxes);
+    elvis_certainty shared = ELVIS_ESTIMATED;
+    CHECK((all_bounds(volume, shared) == boxes));
+    CHECK(shared == certainty);
 }
 
 } // namespace elvis::oracle
