@@ -1,6 +1,9 @@
 #include "call.hpp"
 
 #include <core/base/counted.hpp>
+#include <core/base/infinity.hpp>
+#include <core/expression/poles.hpp>
+#include <core/render/field/chosen_values.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/volume/describe_volume.hpp>
 #include <core/session/volume/open_volume.hpp>
@@ -165,6 +168,19 @@ elvis_range range_of(const RuntimeVolume& volume, const FieldExtrema& found) {
     std::ranges::copy(position_of(volume, found.minimum), range.minimum_position);
     std::ranges::copy(position_of(volume, found.maximum), range.maximum_position);
     return range;
+}
+
+/** Infinite bounds where an expression has a pole. */
+void tell_poles(const RuntimeVolume& volume, const FieldChoice& field, std::uint32_t time_step, FieldExtrema& extrema) {
+    if (!field.expression || is_by_place(field, volume) || !volume.has_evaluation()) {
+        return;
+    }
+    for (auto [extremum, limit] : {std::pair{&extrema.minimum, -infinity}, {&extrema.maximum, infinity}}) {
+        if (std::isfinite(extremum->value) &&
+            is_near_pole(*field.expression, volume, time_step, extremum->element, extremum->xi)) {
+            extremum->bound = limit;
+        }
+    }
 }
 
 } // namespace
@@ -387,6 +403,9 @@ elvis_result elvis_data_get_range(elvis_data* data, elvis_string field, uint32_t
         const DataTask task(*data->state, nullptr);
         const RuntimeVolume& volume = data->state->volume;
         check_time_step(volume, time_step);
-        give(range_of(volume, data->state->extrema_of(choose_field(volume, std::string(field)), time_step)), range, "range");
+        const FieldChoice choice = choose_field(volume, std::string(field));
+        FieldExtrema extrema = data->state->extrema_of(choice, time_step);
+        tell_poles(volume, choice, time_step, extrema);
+        give(range_of(volume, extrema), range, "range");
     });
 }

@@ -128,6 +128,10 @@ private:
 
 } // namespace
 
+std::vector<double> node_values(const Expression& expression, ExpressionPoint& point) {
+    return evaluate_nodes(expression.graph(), {expression.value()}, point);
+}
+
 std::array<double, 9> inverse3(const std::array<double, 9>& m) {
     const auto minor = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) { return m[a] * m[d] - m[b] * m[c]; };
     const std::array<double, 9> adjugate{minor(4, 5, 7, 8), minor(2, 1, 8, 7), minor(1, 2, 4, 5),

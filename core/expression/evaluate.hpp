@@ -8,6 +8,7 @@
 #include <core/expression/expression.hpp>
 
 #include <array>
+#include <vector>
 
 namespace elvis {
 
@@ -31,6 +32,9 @@ public:
 };
 
 double evaluate(const Expression& expression, ExpressionPoint& point);
+
+/** Of all nodes that the value needs, by number; zero of others. */
+std::vector<double> node_values(const Expression& expression, ExpressionPoint& point);
 
 struct ValueAndGradient {
     double value = 0;

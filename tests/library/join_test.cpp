@@ -9,6 +9,7 @@
 
 using namespace elvis;
 using test::convert_to;
+using test::opened;
 using test::own_plugins;
 using test::TemporaryFolder;
 
@@ -17,11 +18,6 @@ namespace {
 std::string box(int order, const char* field = "waves", int n_steps = 1) {
     return R"({"generator": 1, "mesh": "box", "shape": "mixed", "elements": [4, 2, 2], "order": )" + std::to_string(order) +
            R"(, "fields": [")" + field + R"("], "time_steps": )" + std::to_string(n_steps) + "}";
-}
-
-data opened(const context& library, const TemporaryFolder& folder, const char* name, const std::string& description) {
-    convert_to(library, folder, name, description);
-    return library.open(folder.path(name));
 }
 
 } // namespace

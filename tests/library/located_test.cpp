@@ -10,6 +10,7 @@
 
 using namespace elvis;
 using test::convert_to;
+using test::opened;
 using test::own_plugins;
 using test::TemporaryFolder;
 
@@ -20,11 +21,6 @@ std::string box(const char* shape, const char* elements, int order, const char* 
     return std::string(R"({"generator": 1, "mesh": "box", "shape": ")") + shape + R"(", "elements": )" + elements +
            R"(, "box": )" + box + R"(, "order": )" + std::to_string(order) +
            R"(, "fields": [{"field": "polynomial", "name": "p", "coefficients": [[2, 1, 0, 1], [0, 0, 2, -1], [0, 0, 0, 0.3]]}]})";
-}
-
-data opened(const context& library, const TemporaryFolder& folder, const char* name, const std::string& description) {
-    convert_to(library, folder, name, description);
-    return library.open(folder.path(name));
 }
 
 scene showing(const context& library, const std::string& surface, const char* precision = "float64") {

@@ -45,4 +45,10 @@ inline std::string convert(const context& library, const TemporaryFolder& folder
     return folder.path("volume.h5");
 }
 
+/** The same, opened. */
+inline data opened(const context& library, const TemporaryFolder& folder, const char* name, const std::string& description) {
+    convert_to(library, folder, name, description);
+    return library.open(folder.path(name));
+}
+
 } // namespace elvis::test

@@ -46,7 +46,7 @@ class Range:
     minimum: float
     maximum: float
     lower_bound: float
-    """No value lies below, if `certified`."""
+    """No value lies below, if `certified`. Infinite where an expression grows without limit, as far as its samples tell."""
     upper_bound: float
     certified: bool
     """Proven, not from samples."""

@@ -61,6 +61,9 @@ ordered_json extrema_json(const std::string& field, const elvis_range& range) {
     if (!std::isfinite(range.minimum) || !std::isfinite(range.maximum)) {
         throw Error(field, "is not finite everywhere: it has no extrema");
     }
+    if (std::isinf(range.lower_bound) || std::isinf(range.upper_bound)) {
+        throw Error(field, "grows without limit, as far as its samples tell: it has no extrema");
+    }
     const bool is_certified = range.certainty == ELVIS_CERTIFIED;
     return {{"field", field},
             {"certainty", is_certified ? "certified" : "sampled"},

@@ -115,6 +115,9 @@ std::string remark_of(const Numbers& row) {
     if (row.integral && row.integral->n_unresolved > 0) {
         add("the surface stays undecided in small places");
     }
+    if (row.extrema && (std::isinf(row.extrema->lower_bound) || std::isinf(row.extrema->upper_bound))) {
+        add("it grows without limit, as far as its samples tell");
+    }
     if (row.extrema && row.extrema->certainty != ELVIS_CERTIFIED) {
         add("extrema are sampled");
     }

@@ -310,7 +310,7 @@ typedef struct elvis_range {
     /** ELVIS_CERTIFIED: no value lies outside of lower and upper bound. ELVIS_ESTIMATED: from samples. */
     elvis_certainty certainty;
     double minimum, maximum;
-    double lower_bound, upper_bound;
+    double lower_bound, upper_bound; /**< infinite where an expression grows without limit, as far as its samples tell */
     /** Elements, as people know them, and places in them. */
     int64_t minimum_element, maximum_element;
     double minimum_xi[3], maximum_xi[3];
