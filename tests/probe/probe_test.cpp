@@ -282,7 +282,7 @@ TEST_CASE("a probed point on shared faces reports the lowest element and the oth
 TEST_CASE("bounds that several threads ask for are those of all elements, each in its place") {
     // More than one thread asks for at once.
     const TemporaryFile file("many.h5");
-    generate(R"({"generator": 1, "mesh": "waves", "shape": "mixed", "elements": [9, 9, 9], "order": 1, "field": "sphere"})",
+    generate(R"({"generator": 1, "mesh": "waves", "shape": "mixed", "elements": [12, 12, 12], "order": 1, "field": "sphere"})",
              file.path());
     const RuntimeVolume volume = open_volume(file.path());
     REQUIRE(volume.n_elements() > 4096);
