@@ -177,7 +177,7 @@ void SurfaceDrawing::provide(const Isosurfaces& isosurfaces) {
 }
 
 void SurfaceDrawing::draw(const Isosurfaces& isosurfaces, const LayerTarget& target, FrameCounts& counts) {
-    m_passes.of(isosurfaces.field).isosurfaces().draw(m_rays, first, target, counts);
+    m_passes.of(isosurfaces.field).isosurfaces().draw(m_rays, m_surface.clip, first, target, counts);
 }
 
 void SurfaceDrawing::finish(const Isosurfaces& isosurfaces, const LayerTarget& target, FrameCounts& counts) {

@@ -50,6 +50,7 @@ layout(push_constant) uniform core_parameters {
     uint core_first_component;
     uint core_end_component;
     uint core_n_isovalues;
+    uint core_n_clips;
     uint core_has_beyond;
     // 0: from the eye on.
     uint core_round;
@@ -68,6 +69,7 @@ layout(push_constant) uniform core_parameters {
 #include "isosurface/group_octants.glsl"
 #include "isosurface/octant_descent.glsl"
 #include "isosurface/nearest_crossing.glsl"
+#include "isosurface/kept_part.glsl"
 #include "isosurface/interval_bounds.glsl"
 #include "isosurface/interval_root.glsl"
 #include "isosurface/octant_search.glsl"
@@ -176,10 +178,11 @@ void main() {
     while (row < end_row) {
         core_ray ray = core_pixel_ray(along, elvis_real(row));
         const uint pixel = row * core_size.x + column;
-        const uint n_entries = core_look_beyond(pixel, ray) && core_is_chosen(pixel) ? n_listed : 0u;
+        const bool is_wanted = core_look_beyond(pixel, ray) && core_is_chosen(pixel);
         const elvis_real stretch = length(ray.direction);
         core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
         const core_last_crossing last = core_last_crossing_of(pixel, ray.least_t);
+        const uint n_entries = core_keep_part(ray, nearest) && is_wanted ? n_listed : 0u;
         uint flags = core_search_ray(ray, last, core_octant_descent(n_listed, n_entries, 0u, 0u, 0u, 0u), nearest, counts);
         flags |= core_blur_of(nearest, ray, stretch) | core_nearest_store(nearest, pixel, ray, stretch, along.reference_distance);
         if (flags != 0u) {

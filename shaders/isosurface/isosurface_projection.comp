@@ -42,6 +42,7 @@ layout(push_constant) uniform core_parameters {
     uint core_first_component;
     uint core_end_component;
     uint core_n_isovalues;
+    uint core_n_clips;
     uint core_has_beyond;
     // 0: from the eye on.
     uint core_round;
@@ -78,6 +79,7 @@ elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
 #endif
 
 #include "isosurface/nearest_crossing.glsl"
+#include "isosurface/kept_part.glsl"
 #include "segments/root_candidate.glsl"
 #include "segments/dyadic_interval.glsl"
 #include "isosurface/projection_search.glsl"
@@ -176,9 +178,11 @@ void main() {
     const uint pixel = is_pixel ? core_list[place] : 0u;
     const core_cut_column along = core_cut_begin(elvis_real(pixel % core_width));
     core_ray ray = core_pixel_ray(along, elvis_real(pixel / core_width));
-    const bool is_wanted = core_look_beyond(pixel, ray) && is_pixel;
+    const bool is_looked_for = core_look_beyond(pixel, ray) && is_pixel;
     const elvis_real stretch = length(ray.direction);
     const core_last_crossing last = core_last_crossing_of(pixel, ray.least_t);
+    core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
+    const bool is_wanted = core_keep_part(ray, nearest) && is_looked_for;
     core_begin_isovalues();
     elvis_real size;
     const core_traced_ray traced_ray = core_projection_ray(ray, stretch, size);
@@ -186,7 +190,6 @@ void main() {
     core_stack[0] = 0u;
     uint stack_size = is_wanted ? 1u : 0u, work = 0u;
     core_projection_search search = core_projection_begin();
-    core_nearest_crossing nearest = core_nearest_begin(pixel, stretch, along.reference_distance);
     while ((search.phase != CORE_PHASE_SEEK || stack_size > 0u) && work < CORE_WORK_LIMIT) {
         work += 1u;
         while (search.phase == CORE_PHASE_SEEK && stack_size > 0u && work < CORE_WORK_LIMIT) {

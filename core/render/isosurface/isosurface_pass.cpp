@@ -5,6 +5,7 @@
 #include <core/vulkan/real_array.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace elvis {
 
@@ -18,6 +19,11 @@ constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
 /** Of m_counts. */
+/**
+ * Of the volume's diagonal: how far below a clipping plane crossings are still looked for. Colours doubt clipping within a 256th of the
+ * distance to what neighbouring pixels show (shaders/picture/color.comp).
+ */
+constexpr double kept_below_planes = 1.0 / 512;
 enum Count : std::size_t { evaluations, excluded, outside, undecided, crossings, n_counts };
 
 struct TilesParameters {
@@ -31,7 +37,7 @@ struct Parameters {
     std::uint32_t first_listed;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
-    std::uint32_t n_isovalues;
+    std::uint32_t n_isovalues, n_clips;
     std::uint32_t has_beyond;
     std::uint32_t round;
     float extent;
@@ -124,15 +130,26 @@ void IsosurfacePass::choose(const Isosurfaces& wanted, std::uint32_t time_step, 
     }
 }
 
-void IsosurfacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target,
-                          FrameCounts& counts) {
+void IsosurfacePass::write_isovalues(const CutPlaneGeometry& view, std::span<const std::array<double, 4>> clip) {
+    std::vector<double> numbers = m_values;
+    const std::array<double, 4>& reference = view.rows[6];
+    for (const std::array<double, 4>& plane : clip) {
+        const double height = plane[0] * reference[0] + plane[1] * reference[1] + plane[2] * reference[2] + plane[3];
+        const double margin = kept_below_planes * m_extent * std::hypot(plane[0], plane[1], plane[2]);
+        numbers.insert(numbers.end(), {plane[0], plane[1], plane[2], height + margin});
+    }
+    m_n_clips = static_cast<std::uint32_t>(clip.size());
+    write_reals(provide_buffer(m_isovalues, m_device, numbers.size() * real_bytes(m_precision)), m_precision, numbers);
+}
+
+void IsosurfacePass::draw(const CutPlaneGeometry& view, std::span<const std::array<double, 4>> clip, std::uint32_t first_surface,
+                          const LayerTarget& target, FrameCounts& counts) {
     const Layer& layer = target.layer;
     m_round = target.beyond ? m_round + 1 : 0;
     // A core_crossing_record is as large as a sample.
     provide_buffer(m_last, m_device, 2 * layer.n_pixels() * sample_bytes(m_precision));
     provide_buffer(m_bending, m_device, layer.n_pixels() * real_bytes(m_precision));
-    const Buffer& isovalues = provide_buffer(m_isovalues, m_device, m_values.size() * real_bytes(m_precision));
-    write_reals(isovalues, m_precision, m_values);
+    write_isovalues(view, clip);
     write_view(m_frame, m_precision, view);
     if (m_isovalue_set.rests_on_estimates()) {
         layer.marks.write_items(std::span<const Mark>(std::vector<Mark>(layer.n_pixels(), Mark{0, pixel_flag::estimated})));
@@ -168,7 +185,7 @@ void IsosurfacePass::draw_again_by_intervals(std::uint32_t left_open, std::uint3
 void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t flags, std::uint32_t first_surface,
                                         const LayerTarget& target, FrameCounts& counts) {
     const IsosurfaceProjection::Picture picture{
-        m_frame, *m_isovalues, *m_bending, *m_last, target, m_component, static_cast<std::uint32_t>(m_values.size()), m_round};
+        m_frame, *m_isovalues, *m_bending, *m_last, target, m_component, static_cast<std::uint32_t>(m_values.size()), m_n_clips, m_round};
     if (m_projection.list(target.layer, flags, pixel_flag::estimated) == 0) {
         return;
     }
@@ -236,6 +253,7 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                               m_component.first,
                               m_component.end,
                               static_cast<std::uint32_t>(m_values.size()),
+                              m_n_clips,
                               target.beyond ? 1u : 0u,
                               m_round,
                               m_extent};

@@ -31,9 +31,11 @@ public:
 
     /**
      * Draws the nearest crossing of each ray; each class is a surface of its own, numbered from `first_surface`. Samples get
-     * the isovalue, less the offset; `target` has places. `view` is the geometry of any plane: only its rays matter.
+     * the isovalue, less the offset; `target` has places. `view` is the geometry of any plane: only its rays matter. What lies
+     * well below one of the planes `clip` (ax + by + cz + d < 0) is not looked for.
      */
-    void draw(const CutPlaneGeometry& view, std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts);
+    void draw(const CutPlaneGeometry& view, std::span<const std::array<double, 4>> clip, std::uint32_t first_surface,
+              const LayerTarget& target, FrameCounts& counts);
 
     /** An upper bound of the normal curvatures of what was drawn last, a number a pixel. */
     const Buffer& bending() const { return *m_bending; }
@@ -63,6 +65,8 @@ private:
         void follow_room(const IsovalueSet& set);
     };
 
+    /** The isovalues, and the planes relative to the reference point of the rays. */
+    void write_isovalues(const CutPlaneGeometry& view, std::span<const std::array<double, 4>> clip);
     std::vector<TileList::Ranges> list_tiles(const Layer& layer, const TileRows& wanted);
     /** `mask`: not zero in pixels that are drawn; all are without it. */
     void draw_by_intervals(std::uint32_t first_surface, const LayerTarget& target, const Buffer* mask, FrameCounts& counts);
@@ -83,6 +87,7 @@ private:
     IsovalueSet m_isovalue_set;
     /** Less the offset. */
     std::vector<double> m_values;
+    std::uint32_t m_n_clips = 0;
     ScalarComponent m_component;
     IsosurfaceMethod m_method = IsosurfaceMethod::interval;
     std::uint32_t m_degree = 0;
@@ -90,6 +95,7 @@ private:
     IsosurfaceProjection m_projection;
     Buffer m_frame;
     Buffer m_counts;
+    /** And behind them the planes that clip. */
     std::optional<Buffer> m_isovalues;
     /** Kept from frame to frame. */
     std::optional<Buffer> m_bending, m_mask;

@@ -26,7 +26,7 @@ struct Parameters {
     std::uint32_t first, end;
     std::uint32_t surface;
     std::uint32_t first_component, end_component;
-    std::uint32_t n_isovalues;
+    std::uint32_t n_isovalues, n_clips;
     std::uint32_t has_beyond;
     std::uint32_t round;
 };
@@ -97,6 +97,7 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
                                                picture.component.first,
                                                picture.component.end,
                                                picture.n_isovalues,
+                                               picture.n_clips,
                                                picture.target.beyond ? 1u : 0u,
                                                picture.round};
                    kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));

@@ -32,7 +32,7 @@ public:
         const Buffer &frame, &isovalues, &bending, &last;
         const LayerTarget& target;
         ScalarComponent component;
-        std::uint32_t n_isovalues = 0;
+        std::uint32_t n_isovalues = 0, n_clips = 0;
         std::uint32_t round = 0;
     };
     /** In the listed pixels, for one class, whose kernels have `request` in common (IsosurfacePass). */
