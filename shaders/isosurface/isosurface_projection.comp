@@ -46,6 +46,8 @@ layout(push_constant) uniform core_parameters {
     uint core_has_beyond;
     // 0: from the eye on.
     uint core_round;
+    // The diagonal of the volume's bounds.
+    float core_extent;
 };
 
 #include "isosurface/isovalues.glsl"
@@ -92,10 +94,10 @@ uint core_stack[CORE_STACK_SIZE];
 
 core_traced_ray core_projection_ray(core_ray ray, elvis_real stretch, out elvis_real size) {
     const core_node root = core_fetch_node(0u);
-    const vec3 root_size = max(abs(root.lower), abs(root.upper)), root_sides = root.upper - root.lower;
+    const vec3 root_size = max(abs(root.lower), abs(root.upper));
     const elvis_real far = elvis_real(max(max(max(root_size.x, root_size.y), root_size.z), ray.far));
-    // Of the volume, in the ray's parameter.
-    size = elvis_real(length(root_sides)) / stretch;
+    // Of all of the volume, whatever part of it can hold an isovalue.
+    size = elvis_real(core_extent) / stretch;
     core_traced_ray traced_ray;
     traced_ray.origin = ray.origin;
     traced_ray.direction = ray.direction;

@@ -20,8 +20,8 @@ constexpr std::uint32_t group_size = 32;
 constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
 /** Of m_counts. */
 /**
- * Of the volume's diagonal: how far below a clipping plane crossings are still looked for. Colours doubt clipping within a 256th of the
- * distance to what neighbouring pixels show (shaders/picture/color.comp).
+ * Of the volume's diagonal: how far below a clipping plane crossings are still looked for. Colours doubt clipping within a
+ * 256th of the distance to what neighbouring pixels show (shaders/picture/color.comp).
  */
 constexpr double kept_below_planes = 1.0 / 512;
 enum Count : std::size_t { evaluations, excluded, outside, undecided, crossings, n_counts };
@@ -142,8 +142,8 @@ void IsosurfacePass::write_isovalues(const CutPlaneGeometry& view, std::span<con
     write_reals(provide_buffer(m_isovalues, m_device, numbers.size() * real_bytes(m_precision)), m_precision, numbers);
 }
 
-void IsosurfacePass::draw(const CutPlaneGeometry& view, std::span<const std::array<double, 4>> clip, std::uint32_t first_surface,
-                          const LayerTarget& target, FrameCounts& counts) {
+void IsosurfacePass::draw(const CutPlaneGeometry& view, std::span<const std::array<double, 4>> clip,
+                          std::uint32_t first_surface, const LayerTarget& target, FrameCounts& counts) {
     const Layer& layer = target.layer;
     m_round = target.beyond ? m_round + 1 : 0;
     // A core_crossing_record is as large as a sample.
@@ -185,7 +185,8 @@ void IsosurfacePass::draw_again_by_intervals(std::uint32_t left_open, std::uint3
 void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t flags, std::uint32_t first_surface,
                                         const LayerTarget& target, FrameCounts& counts) {
     const IsosurfaceProjection::Picture picture{
-        m_frame, *m_isovalues, *m_bending, *m_last, target, m_component, static_cast<std::uint32_t>(m_values.size()), m_n_clips, m_round};
+        m_frame,   *m_isovalues, *m_bending, *m_last, target, m_component, static_cast<std::uint32_t>(m_values.size()),
+        m_n_clips, m_round,      m_extent};
     if (m_projection.list(target.layer, flags, pixel_flag::estimated) == 0) {
         return;
     }

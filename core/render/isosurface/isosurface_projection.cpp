@@ -29,6 +29,7 @@ struct Parameters {
     std::uint32_t n_isovalues, n_clips;
     std::uint32_t has_beyond;
     std::uint32_t round;
+    float extent;
 };
 
 } // namespace
@@ -99,7 +100,8 @@ void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t elem
                                                picture.n_isovalues,
                                                picture.n_clips,
                                                picture.target.beyond ? 1u : 0u,
-                                               picture.round};
+                                               picture.round,
+                                               picture.extent};
                    kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
                });
     take_counts(layer, m_counts, n_counts, [&counts](std::span<const std::uint32_t> found) {

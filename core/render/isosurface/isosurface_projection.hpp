@@ -34,6 +34,8 @@ public:
         ScalarComponent component;
         std::uint32_t n_isovalues = 0, n_clips = 0;
         std::uint32_t round = 0;
+        /** The diagonal of the volume's bounds. */
+        float extent = 0;
     };
     /** In the listed pixels, for one class, whose kernels have `request` in common (IsosurfacePass). */
     void draw(const KernelRequest& request, std::uint32_t element_class, IsosurfaceMethod method, std::uint32_t degree,

@@ -10,6 +10,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -80,6 +81,21 @@ void check_sphere(const FrameRequest& request, const Frame& frame, double radius
     CHECK(n_hits > 200);
     CHECK(n_wrong == 0);
     CHECK(largest <= tolerance);
+}
+
+/** The nearest point of a ray on a sphere around the origin that planes leave: how far away it is, or NaN. */
+double sphere_above(const Line& ray, double radius, const std::vector<std::array<double, 4>>& clip) {
+    const double along = ray.origin.dot(ray.direction), miss = ray.origin.squaredNorm() - along * along;
+    const double half = std::sqrt(radius * radius - miss);
+    for (const double t : {-along - half, -along + half}) {
+        const Vector x = ray.origin + t * ray.direction;
+        const bool is_kept = std::ranges::all_of(clip, [&x](const std::array<double, 4>& plane) {
+            return plane[0] * x.x() + plane[1] * x.y() + plane[2] * x.z() + plane[3] >= 0;
+        });
+        if (half > 0 && is_kept)
+            return t;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
 }
 
 } // namespace
@@ -245,6 +261,43 @@ TEST_CASE("through a transparent isosurface its other side is seen, and clipping
         }
     // The rim of the half is a little nearer to the middle of the picture than the silhouette.
     CHECK(1.1 * static_cast<double>(n_seen) >= static_cast<double>(opaque.counts.hit_pixels));
+}
+
+TEST_CASE("what clipping planes cut away of an isosurface is not searched") {
+    const TemporaryFile file("cap.h5");
+    write_cube(file.path(), "hexahedron", 4);
+    const RuntimeVolume volume = open_volume(file.path());
+    const double radius = 0.9;
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        Renderer renderer(device(), volume, precision);
+        for (const IsosurfaceMethod method : {IsosurfaceMethod::interval, IsosurfaceMethod::bernstein}) {
+            Surface surface = isosurface({}, {radius * radius});
+            std::get<Isosurfaces>(surface.geometry).method = method;
+            const Frame whole = renderer.render(request_of(surface));
+            // A cap on the far side; a slice, of lengths of the normals that differ; and nothing.
+            const std::vector<std::vector<std::array<double, 4>>> clips = {
+                {{-1, -1, 0, -0.8}}, {{0, 0, 5, -2.5}, {0, 0, -0.1, 0.07}}, {{1, 0, 0, -2}}};
+            for (const auto& clip : clips) {
+                surface.clip = clip;
+                const FrameRequest request = request_of(surface);
+                const Frame frame = renderer.render(request);
+                std::size_t n_hits = 0, n_wrong = 0;
+                for (std::size_t pixel = 0; pixel < frame.depth.size(); ++pixel) {
+                    const double t = sphere_above(ray_of(request, frame, pixel), radius, clip), depth = frame.depth[pixel];
+                    const bool is_right = std::isfinite(t) ? std::abs(depth - t) < 1e-3 : !std::isfinite(depth);
+                    n_hits += std::isfinite(t);
+                    n_wrong +=
+                        !is_right && (frame.flags[pixel] & (pixel_flag::undecided | pixel_flag::isosurface_undecided)) == 0;
+                }
+                CAPTURE(clip, n_hits);
+                CHECK(n_wrong == 0);
+                CHECK(frame.counts.hit_pixels <= n_hits + 20);
+                CHECK(frame.counts.hit_pixels + 20 >= n_hits);
+                CHECK(2 * frame.counts.field_evaluations < whole.counts.field_evaluations);
+                CHECK((n_hits > 0 || frame.counts.field_evaluations == 0));
+            }
+        }
+    }
 }
 
 TEST_CASE("contours and mesh lines are drawn on isosurfaces") {
