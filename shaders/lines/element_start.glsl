@@ -66,16 +66,10 @@ void core_select_element(uint element, core_cut_square corners, elvis_vec3 middl
                             core_is_far_outside(start, extent, elvis_fetch_core_curvatures(element, 0u));
     search.item = is_skipped ? CORE_NO_ITEM : element;
     core_begin_element(search, start);
-}
-
 #if CORE_STRONGLY_BENT
-// What core_select_element leaves to the iteration that asks a new element, because it takes evaluations.
-void core_enter_element(core_cut_square corners, elvis_vec3 middle, elvis_vec3 normal, elvis_real room, inout core_line_search search) {
-    const bool is_new = search.item != CORE_NO_ITEM && search.level == 0u && search.moves == 0u && search.part_half_side < elvis_real(0);
-    const uint element = search.item != CORE_NO_ITEM ? search.item : 0u;
     const bool may_fold = elvis_fetch_core_curvatures(element, 0u) > CORE_MOST_MEASURED_CURVATURE;
-    if (is_new && may_fold && !search.asks_own && room > elvis_real(0) && corners.all_hit) {
+    if (may_fold && !search.asks_own && room > elvis_real(0) && corners.all_hit) {
         core_begin_part(element, core_widened(corners, middle, room), normal, search);
     }
-}
 #endif
+}

@@ -31,9 +31,6 @@ void core_search_lines(core_surface surface, inout core_line_search search) {
     while (core_is_unfinished(search) && search.work < CORE_WORK_LIMIT) {
         search.work += 1u;
         core_next_item(surface, search);
-#if CORE_STRONGLY_BENT
-        core_enter_item(surface, search);
-#endif
         core_ask(surface, search);
         if (!core_is_unfinished(search)) {
             break;

@@ -62,14 +62,6 @@ void core_select_item(const core_surface surface, uint element, inout core_line_
     core_select_element(element, corners, middle, core_plane_normal.xyz, elvis_real(1), search);
 }
 
-#if CORE_STRONGLY_BENT
-void core_enter_item(const core_surface surface, inout core_line_search search) {
-    const core_cut_square corners = surface.corners;
-    const elvis_vec3 middle = elvis_real(0.25LF) * (corners.corner0 + corners.corner1 + corners.corner2 + corners.corner3);
-    core_enter_element(corners, middle, core_plane_normal.xyz, elvis_real(1), search);
-}
-#endif
-
 core_shown_square core_square_on(const core_surface surface, const core_line_search search, const core_element_image image,
                                  core_picture_square place) {
     const core_cut_square corners = core_cut_corners(place);

@@ -92,15 +92,9 @@ void core_ask(core_surface surface, inout core_line_search search) {
     lines.is_estimated = lines.is_estimated || (is_judged && test.is_estimated);
     search.lines = lines;
 #if CORE_STRONGLY_BENT
-    const bool is_surely_not_filled = is_judged && is_known && square.subpixel.is_crossed;
-    search.is_filled = search.is_filled && !is_surely_not_filled &&
-                       (!is_active || moves_on || is_divided || (is_judged && is_inside));
+    search.is_filled = search.is_filled && (!is_active || moves_on || is_divided || (is_judged && is_inside));
 #endif
     search.goes_on = core_is_looking(lines) && !(is_judged && square.is_whole_pixel && is_inside && !leaves_contour);
-#if CORE_STRONGLY_BENT
-    // Of the element by itself no more counts.
-    search.goes_on = search.goes_on && (search.is_filled || !search.asks_own);
-#endif
     core_go_on(surface, square, image, is_active, moves_on, is_divided, search);
 }
 
@@ -109,7 +103,6 @@ void core_ask(core_surface surface, inout core_line_search search) {
 // fills the pixel, no other one counts, whatever it would leave open.
 void core_begin_turn(bool asks_own, uint stack_size, inout core_line_search search) {
     search.asks_own = search.is_filled = asks_own;
-    search.goes_on = core_is_looking(search.lines);
     search.lines.is_contour_open = search.lines.is_mesh_open = false;
     search.item = CORE_NO_ITEM;
     search.stack_size = stack_size;
