@@ -18,12 +18,12 @@ constexpr std::uint32_t tile_stride = 2 * tile_capacity + 2;
 constexpr std::uint32_t group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
 constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
-/** Of m_counts. */
 /**
  * Of the volume's diagonal: how far below a clipping plane crossings are still looked for. Colours doubt clipping within a
  * 256th of the distance to what neighbouring pixels show (shaders/picture/color.comp).
  */
 constexpr double kept_below_planes = 1.0 / 512;
+/** Of m_counts. */
 enum Count : std::size_t { evaluations, excluded, outside, undecided, crossings, n_counts };
 
 struct TilesParameters {
