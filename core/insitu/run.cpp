@@ -180,7 +180,7 @@ void InsituRun::draw(const Output& output, const PlannedPicture& planned, std::u
     scene.volume = volume_name;
     const Precision precision = precision_of(scene);
     VolumeInParts& drawn = parts(precision);
-    const PartsPicture picture = drawn.draw(scene);
+    const PartsPicture picture = drawn.draw(scene, planned.with_buffers);
     m_report.device_bytes = drawn.own_work().device_bytes;
     if (!m_team.is_first()) {
         return;
