@@ -85,7 +85,7 @@ void render_parts(const RenderArguments& arguments, const scene& shown) {
     const Precision precision = scene.precision.value_or(Precision::float32);
     const Device device(arguments.device, arguments.validation);
     name_devices(device, team);
-    Partition partition = partition_of(arguments, volume.whole);
+    Partition partition = partition_of(arguments, volume);
     const std::uint32_t n_parts = partition.n_parts();
     if (scene.animation) {
         render_parts_film(arguments, scene, volume, device, std::move(partition), team, control);
