@@ -7,9 +7,9 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t smallest_side = 16, largest_side = 128;
+constexpr std::uint32_t smallest_side = 8, largest_side = 128;
 /** Of a process: so many that what it has is about as much as what others have. */
-constexpr std::uint64_t tiles_a_share = 16;
+constexpr std::uint64_t tiles_a_share = 64;
 /** Sides in reaches: what is around a tile is then no more than half of what it holds. */
 constexpr std::uint32_t sides_of_reach = 8;
 
