@@ -80,7 +80,8 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/** Throws Error if the scene has what is surely not drawn in parts: line integral convolution, several samples a pixel. */
+/** Throws Error if the scene has what is surely not drawn in parts: several volumes, a budget of memory, several samples a
+ * pixel. */
 void need_parts_can_draw(const Scene& scene);
 
 } // namespace elvis
