@@ -114,6 +114,36 @@ std::vector<std::vector<std::byte>> MpiTeam::gathered(std::vector<std::byte> byt
     return all;
 }
 
+/*
+ * Not MPI_Alltoallv, which counts all that a process sends with int, and not DIY's all_to_all (vtkdiy2): that forwards what it
+ * sends several times, and a running solver's communicator (elvis/insitu.h) is not one of MPI's.
+ */
+std::vector<std::vector<std::byte>> MpiTeam::exchanged(std::vector<std::vector<std::byte>> sent) {
+    std::vector<std::uint64_t> sent_sizes(m_size), sizes(m_size);
+    std::ranges::transform(sent, sent_sizes.begin(), [](const auto& bytes) { return bytes.size(); });
+    MPI_Alltoall(sent_sizes.data(), 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, m_ranks);
+    std::vector<std::vector<std::byte>> received(m_size);
+    std::vector<MPI_Request> requests;
+    // Each begins with its neighbour, so that not all send to the same one first.
+    for (std::uint32_t step = 1; step < m_size; ++step) {
+        const std::uint32_t from = (m_rank + m_size - step) % m_size;
+        received[from].resize(sizes[from]);
+        in_pieces(sizes[from], most_at_once, [&](std::size_t first, int count) {
+            MPI_Irecv(received[from].data() + first, count, MPI_BYTE, static_cast<int>(from), 1, m_ranks,
+                      &requests.emplace_back());
+        });
+    }
+    for (std::uint32_t step = 1; step < m_size; ++step) {
+        const std::uint32_t to = (m_rank + step) % m_size;
+        in_pieces(sent[to].size(), most_at_once, [&](std::size_t first, int count) {
+            MPI_Isend(sent[to].data() + first, count, MPI_BYTE, static_cast<int>(to), 1, m_ranks, &requests.emplace_back());
+        });
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    received[m_rank] = std::move(sent[m_rank]);
+    return received;
+}
+
 void MpiTeam::fail(const std::string& message, int status) const {
     // Those who fail at the same time do so within some milliseconds.
     constexpr std::chrono::milliseconds pause{200}, longest{4000};

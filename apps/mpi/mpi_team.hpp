@@ -40,6 +40,7 @@ public:
     std::vector<double> joined(std::vector<double> numbers) override;
     std::vector<double> of_first(std::vector<double> numbers) override;
     std::vector<std::vector<std::byte>> gathered(std::vector<std::byte> bytes) override;
+    std::vector<std::vector<std::byte>> exchanged(std::vector<std::vector<std::byte>> sent) override;
 
     /**
      * Says what this process failed of, and ends all. Where several fail, as with a file that none can read, the one of lowest

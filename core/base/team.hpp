@@ -28,6 +28,8 @@ public:
     virtual std::vector<double> of_first(std::vector<double> numbers) = 0;
     /** What each member has, in the order of ranks; on rank 0 alone, nothing on others. */
     virtual std::vector<std::vector<std::byte>> gathered(std::vector<std::byte> bytes) = 0;
+    /** `sent`: bytes for each member. Returns those from each; own ones stay. */
+    virtual std::vector<std::vector<std::byte>> exchanged(std::vector<std::vector<std::byte>> sent) = 0;
 
     bool is_first() const { return rank() == 0; }
 };
@@ -56,6 +58,7 @@ public:
         all.push_back(std::move(bytes));
         return all;
     }
+    std::vector<std::vector<std::byte>> exchanged(std::vector<std::vector<std::byte>> sent) override { return sent; }
 };
 
 } // namespace elvis

@@ -96,6 +96,7 @@ public:
             writer.write_numbers(index, 0, numbers.size(), numbers);
         }
         write_faces(writer);
+        write_parts(writer);
         for (std::uint32_t step = 0; step < m_source.times().size(); ++step) {
             if (m_team.size() == 1) {
                 convert_step(writer, step);
@@ -119,6 +120,7 @@ private:
     void prepare();
     native::Description describe() const;
     void write_faces(native::Writer& writer) const;
+    void write_parts(native::Writer& writer) const;
     void project(const Block& block, std::uint32_t step, BlockResult& result) const;
     void pack(const native::Writer& writer, const Block& block, std::uint32_t step, BlockResult& result) const;
     void convert_step(native::Writer& writer, std::uint32_t step);
@@ -200,6 +202,7 @@ native::Description Conversion::describe() const {
     description.times = m_source.times();
     description.boundary_groups = m_source.boundary_groups();
     description.n_faces = m_topology.n_faces;
+    description.n_parts = m_source.n_parts();
     for (const std::string& path : m_source.paths()) {
         description.notes.emplace_back(
             m_source.paths().size() == 1 ? "source file" : "source file " + std::to_string(description.notes.size() + 1), path);
@@ -217,6 +220,14 @@ void Conversion::write_faces(native::Writer& writer) const {
         writer.write_faces(n_written, faces.size(), faces);
         n_written += faces.size();
     });
+}
+
+void Conversion::write_parts(native::Writer& writer) const {
+    if (m_source.n_parts() > 0) {
+        std::vector<std::uint32_t> parts(m_source.info().n_elements);
+        m_source.parts(0, parts);
+        writer.write_parts(parts);
+    }
 }
 
 void Conversion::project(const Block& block, std::uint32_t step, BlockResult& result) const {

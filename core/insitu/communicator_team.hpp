@@ -33,11 +33,10 @@ public:
     std::vector<double> joined(std::vector<double> numbers) override;
     std::vector<double> of_first(std::vector<double> numbers) override;
     std::vector<std::vector<std::byte>> gathered(std::vector<std::byte> bytes) override;
+    std::vector<std::vector<std::byte>> exchanged(std::vector<std::vector<std::byte>> sent) override;
 
     /** Bytes become those of rank `root`; of one size on all. */
     void broadcast(std::uint32_t root, std::span<std::byte> bytes);
-    /** `sent`: bytes for each rank. Returns those from each rank; own ones stay. */
-    std::vector<std::vector<std::byte>> exchanged(std::vector<std::vector<std::byte>> sent);
 
     /** All do `what`. If it fails on one of them, all throw Error with what the lowest of those says, and do nothing any more.
      */

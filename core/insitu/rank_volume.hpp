@@ -5,6 +5,7 @@
 #pragma once
 
 #include "communicator_team.hpp"
+#include "insitu_volume.hpp"
 #include "shared_volume.hpp"
 
 #include <core/api/arrays.hpp>
@@ -22,24 +23,19 @@
 namespace elvis::library {
 
 /** One part a rank. */
-class RankVolume {
+class RankVolume final : public InsituVolume {
 public:
     /** Collective. `name` stands for the volume in messages. Team and control must outlive it. */
     RankVolume(const elvis_arrays& arrays, std::string name, CommunicatorTeam& team, const TaskControl& control);
 
     const std::shared_ptr<SharedVolume>& source() const { return m_source; }
     const Partition& partition() const { return *m_partition; }
-    /** Of all elements; only those that the rank holds can be read. */
-    const RuntimeVolume& whole() const { return *m_whole; }
-    /** Own elements alone; null if there are none. */
-    const RuntimeVolume* own() const { return m_own ? &*m_own : nullptr; }
+    const RuntimeVolume& whole() const override { return *m_whole; }
+    const RuntimeVolume* own() const override { return m_own ? &*m_own : nullptr; }
 
-    /** Throws InvalidArgument. */
-    void set_values(std::uint32_t field, std::uint32_t element_class, const double* values);
-    /** The solver's values of own elements; returns how many were read. */
-    std::uint64_t read_values();
-    /** Collective: those that were read go to the ranks that hold the elements, too. Returns the fields that have changed. */
-    std::vector<std::uint32_t> share_values();
+    void set_values(std::uint32_t field, std::uint32_t element_class, const double* values) override;
+    std::uint64_t read_values() override;
+    std::vector<std::uint32_t> share_values() override;
     /** Collective: what MappingReader asks for. The element's rank tells all. */
     void read_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions);
 

@@ -101,7 +101,7 @@ std::vector<FieldInfo> names_of(std::size_t n_reductions) {
 
 } // namespace
 
-Reductions::Reductions(const RankVolume& volume, CommunicatorTeam& team, const TaskControl& control,
+Reductions::Reductions(const InsituVolume& volume, CommunicatorTeam& team, const TaskControl& control,
                        std::function<const Device&()> device)
     : m_volume(volume), m_team(team), m_control(control) {
     if (volume.own() != nullptr) {

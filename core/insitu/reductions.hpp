@@ -6,8 +6,10 @@
  */
 #pragma once
 
-#include "rank_volume.hpp"
+#include "communicator_team.hpp"
+#include "insitu_volume.hpp"
 
+#include <core/base/cancel.hpp>
 #include <core/expression/expression.hpp>
 #include <core/session/volume/extrema_finder.hpp>
 #include <core/vulkan/device.hpp>
@@ -34,7 +36,7 @@ struct Reduction {
 class Reductions {
 public:
     /** `device`: where a device alone can tell. All must outlive it. */
-    Reductions(const RankVolume& volume, CommunicatorTeam& team, const TaskControl& control,
+    Reductions(const InsituVolume& volume, CommunicatorTeam& team, const TaskControl& control,
                std::function<const Device&()> device);
 
     /** Collective. Infinite where no value is finite. */
@@ -45,7 +47,7 @@ public:
 private:
     double of_own(const Reduction& reduction);
 
-    const RankVolume& m_volume;
+    const InsituVolume& m_volume;
     CommunicatorTeam& m_team;
     const TaskControl& m_control;
     std::optional<ExtremaFinder> m_extrema;

@@ -1,4 +1,5 @@
 #include "run.hpp"
+#include "table_volume.hpp"
 
 #include <core/api/call.hpp>
 #include <core/api/drawing.hpp>
@@ -34,6 +35,19 @@ void choose_device_of(std::uint32_t local_rank, Context& context) {
     }
 }
 
+/** Where a solver has no other ranks to talk to. */
+const elvis_communicator one_rank = [] {
+    elvis_communicator table{};
+    table.struct_size = sizeof table;
+    table.size = 1;
+    table.minimum = [](void*, double*, std::uint64_t) -> std::int32_t { return 0; };
+    table.broadcast = [](void*, std::uint32_t, void*, std::uint64_t) -> std::int32_t { return 0; };
+    table.exchange = [](void*, const elvis_message*, std::uint32_t, const elvis_message*, std::uint32_t) -> std::int32_t {
+        return 0;
+    };
+    return table;
+}();
+
 std::string numbered(const std::string& name, std::uint64_t step, const char* ending) {
     char number[32];
     std::snprintf(number, sizeof number, "_%06llu", static_cast<unsigned long long>(step));
@@ -46,14 +60,38 @@ InsituRun::InsituRun(std::shared_ptr<Context> context, const elvis_communicator*
                      const std::string& plan, std::string folder)
     : m_context(std::move(context)), m_team(communicator), m_folder(std::move(folder)) {
     const auto start = std::chrono::steady_clock::now();
-    m_team.together([&] { open(arrays, plan); });
+    m_team.together([&] {
+        auto volume = std::make_unique<RankVolume>(arrays, volume_name, m_team, m_control);
+        m_by_ranks = volume.get();
+        m_volume = std::move(volume);
+        open_plan(plan);
+    });
     m_opened = std::chrono::steady_clock::now();
     m_report.open_seconds = seconds_since(start);
 }
 
-void InsituRun::open(const elvis_arrays& arrays, const std::string& plan) {
+InsituRun::InsituRun(std::shared_ptr<Context> context, const elvis_communicator* communicator, const elvis_runtime& table,
+                     elvis_volume* volume, const std::string& plan, std::string folder)
+    : m_context(std::move(context)), m_team(communicator != nullptr ? communicator : &one_rank), m_folder(std::move(folder)) {
+    const auto start = std::chrono::steady_clock::now();
+    m_team.together([&] { open_table(table, volume, plan); });
+    m_opened = std::chrono::steady_clock::now();
+    m_report.open_seconds = seconds_since(start);
+}
+
+void InsituRun::open_table(const elvis_runtime& table, elvis_volume* volume, const std::string& plan) {
+    if (m_team.size() > 1) {
+        throw InvalidArgument("communicator",
+                              "has " + std::to_string(m_team.size()) +
+                                  " ranks; a table of functions is taken on one rank alone, and on several arrays "
+                                  "(elvis_insitu_open): elements around those of a rank come from other ranks");
+    }
+    m_volume = std::make_unique<TableVolume>(table, volume, volume_name);
+    open_plan(plan);
+}
+
+void InsituRun::open_plan(const std::string& plan) {
     choose_device_of(m_team.local_rank(), *m_context);
-    m_volume = std::make_unique<RankVolume>(arrays, volume_name, m_team, m_control);
     m_reductions.emplace(*m_volume, m_team, m_control, [this]() -> const Device& { return m_context->device(); });
     const std::vector<double> first = m_team.of_first({plan.begin(), plan.end()});
     if (plan != std::string(first.begin(), first.end())) {
@@ -133,6 +171,9 @@ void InsituRun::make(std::uint64_t step, double time) {
             for (const auto& [precision, drawn] : m_parts) {
                 drawn->forget_fields(changed);
             }
+            for (const auto& [precision, drawn] : m_renderers) {
+                drawn->forget_fields();
+            }
             is_shared = true;
         }
         write(*output, step, time);
@@ -159,10 +200,10 @@ VolumeInParts& InsituRun::parts(Precision precision) {
     if (!drawn) {
         const Device& device = m_context->device();
         log_line(LogLevel::info, "in situ: rank {} draws with {}", m_team.rank(), device.summary().name);
-        drawn = std::make_unique<VolumeInParts>(m_volume->source(), m_volume->whole(), device, precision, m_volume->partition(),
-                                                m_team, &m_control,
+        drawn = std::make_unique<VolumeInParts>(m_by_ranks->source(), m_volume->whole(), device, precision,
+                                                m_by_ranks->partition(), m_team, &m_control,
                                                 [this](std::uint64_t element, std::span<const double> xi, std::span<double> x) {
-                                                    m_volume->read_mapping(element, xi, x);
+                                                    m_by_ranks->read_mapping(element, xi, x);
                                                 });
     }
     return *drawn;
@@ -175,25 +216,44 @@ Prober* InsituRun::prober() {
     return m_prober ? &*m_prober : nullptr;
 }
 
+Renderer& InsituRun::renderer(Precision precision) {
+    std::unique_ptr<Renderer>& drawn = m_renderers[precision];
+    if (!drawn) {
+        drawn = std::make_unique<Renderer>(m_context->device(), m_volume->whole(), precision, &m_control);
+    }
+    return *drawn;
+}
+
+/** On the first rank; elsewhere empty. */
+StillPicture InsituRun::picture_of(const Scene& scene, bool with_buffers) {
+    const Precision precision = precision_of(scene);
+    if (m_by_ranks == nullptr) {
+        StillOptions options;
+        options.with_buffers = with_buffers;
+        return draw_still(scene, m_volume->whole(), renderer(precision), options, &m_control);
+    }
+    VolumeInParts& drawn = parts(precision);
+    PartsPicture picture = drawn.draw(scene, with_buffers);
+    m_report.device_bytes = drawn.own_work().device_bytes;
+    return std::move(picture.still);
+}
+
 void InsituRun::draw(const Output& output, const PlannedPicture& planned, std::uint64_t step) {
     Scene scene = planned.scene;
     scene.volume = volume_name;
-    const Precision precision = precision_of(scene);
-    VolumeInParts& drawn = parts(precision);
-    const PartsPicture picture = drawn.draw(scene);
-    m_report.device_bytes = drawn.own_work().device_bytes;
+    const StillPicture still = picture_of(scene, planned.with_buffers);
     if (!m_team.is_first()) {
         return;
     }
-    for (const FrameRemark& remark : picture.still.remarks) {
+    for (const FrameRemark& remark : still.remarks) {
         log_line(remark.is_warning ? LogLevel::warning : LogLevel::info, "{}, step {}: {}", output.planned.name, step,
                  remark.text);
     }
     constexpr int bits = 8;
-    write_png(picture.still.frame, path(numbered(output.planned.name, step, ".png")), bits);
+    write_png(still.frame, path(numbered(output.planned.name, step, ".png")), bits);
     if (planned.with_buffers) {
-        write_buffers(picture.still.frame, picture.still.request, m_volume->whole(),
-                      path(numbered(output.planned.name, step, ".h5")), precision);
+        write_buffers(still.frame, still.request, m_volume->whole(), path(numbered(output.planned.name, step, ".h5")),
+                      precision_of(scene));
     }
 }
 

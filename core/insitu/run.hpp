@@ -5,10 +5,13 @@
 #pragma once
 
 #include "plan.hpp"
+#include "rank_volume.hpp"
 #include "samples.hpp"
 
 #include <core/api/handles.hpp>
 #include <core/parts/draw_in_parts.hpp>
+#include <core/render/renderer.hpp>
+#include <core/session/still_picture.hpp>
 
 #include <chrono>
 #include <map>
@@ -24,6 +27,9 @@ public:
     /** Collective. */
     InsituRun(std::shared_ptr<Context> context, const elvis_communicator* communicator, const elvis_arrays& arrays,
               const std::string& plan, std::string folder);
+    /** Of one rank: a table, and what its functions get. `communicator` may be null. */
+    InsituRun(std::shared_ptr<Context> context, const elvis_communicator* communicator, const elvis_runtime& table,
+              elvis_volume* volume, const std::string& plan, std::string folder);
     InsituRun(const InsituRun&) = delete;
     InsituRun& operator=(const InsituRun&) = delete;
 
@@ -40,7 +46,8 @@ private:
         std::optional<TableFile> numbers;
     };
 
-    void open(const elvis_arrays& arrays, const std::string& plan);
+    void open_plan(const std::string& plan);
+    void open_table(const elvis_runtime& table, elvis_volume* volume, const std::string& plan);
     void add(PlannedOutput planned);
     void check_order(std::uint64_t step, double time) const;
     void make(std::uint64_t step, double time);
@@ -49,6 +56,8 @@ private:
     void draw(const Output& output, const PlannedPicture& planned, std::uint64_t step);
     void write_numbers(const Output& output, const PlannedNumbers& planned, std::uint64_t step, double time);
     VolumeInParts& parts(Precision precision);
+    Renderer& renderer(Precision precision);
+    StillPicture picture_of(const Scene& scene, bool with_buffers);
     Prober* prober();
     std::string path(const std::string& name) const;
     void say_cost(std::uint64_t step);
@@ -57,10 +66,14 @@ private:
     TaskControl m_control;
     CommunicatorTeam m_team;
     std::string m_folder;
-    std::unique_ptr<RankVolume> m_volume;
+    std::unique_ptr<InsituVolume> m_volume;
+    /** The same, of arrays; null of a table. */
+    RankVolume* m_by_ranks = nullptr;
     std::optional<Reductions> m_reductions;
     std::optional<Prober> m_prober;
     std::map<Precision, std::unique_ptr<VolumeInParts>> m_parts;
+    /** Of a table. */
+    std::map<Precision, std::unique_ptr<Renderer>> m_renderers;
     /** Planned outputs stay where they are: samples refer to them. */
     std::vector<std::unique_ptr<Output>> m_outputs;
     std::optional<std::uint64_t> m_last_step;

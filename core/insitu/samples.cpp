@@ -41,7 +41,7 @@ struct Samples::Row {
     std::int64_t element = 0;
 };
 
-Samples::Samples(const PlannedSamples& planned, const std::string& path, const RankVolume& volume, CommunicatorTeam& team)
+Samples::Samples(const PlannedSamples& planned, const std::string& path, const InsituVolume& volume, CommunicatorTeam& team)
     : m_planned(planned), m_team(team), m_columns(columns_of(volume.whole(), pointers_to(planned.values).data(),
                                                              static_cast<std::uint32_t>(planned.values.size()))) {
     m_columns.wishes.with_gradients = false;

@@ -21,7 +21,7 @@ namespace elvis::library {
 class Samples {
 public:
     /** `path` of the table. All must outlive it. Throws Error for values that the volume does not have. */
-    Samples(const PlannedSamples& planned, const std::string& path, const RankVolume& volume, CommunicatorTeam& team);
+    Samples(const PlannedSamples& planned, const std::string& path, const InsituVolume& volume, CommunicatorTeam& team);
 
     /** Collective. `prober`: of own elements, or null. */
     void write(Prober* prober, std::uint64_t step, double time);

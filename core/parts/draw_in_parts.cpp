@@ -3,15 +3,14 @@
 #include <core/arrows/scene_arrows.hpp>
 #include <core/base/bounds.hpp>
 #include <core/base/error.hpp>
-#include <core/base/milliseconds.hpp>
 #include <core/base/peak_memory.hpp>
 #include <core/expression/expression.hpp>
 #include <core/parts/all_boxes.hpp>
 #include <core/parts/drawn_part.hpp>
-#include <core/parts/fold.hpp>
 #include <core/parts/fold_lic.hpp>
 #include <core/parts/part_picture.hpp>
 #include <core/parts/part_volume.hpp>
+#include <core/parts/shared_fold.hpp>
 #include <core/parts/whole_ranges.hpp>
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
@@ -19,11 +18,9 @@
 #include <core/session/streamline_tubes.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
-#include <iterator>
-#include <limits>
+#include <functional>
 #include <numeric>
 #include <set>
 #include <string>
@@ -110,14 +107,6 @@ std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     return order;
 }
 
-std::vector<PartPicture> all_pictures(const std::vector<std::vector<std::byte>>& of_ranks) {
-    std::vector<PartPicture> pictures;
-    for (const std::vector<std::byte>& bytes : of_ranks) {
-        std::ranges::move(unpacked(bytes), std::back_inserter(pictures));
-    }
-    return pictures;
-}
-
 } // namespace
 
 struct VolumeInParts::Impl {
@@ -145,12 +134,11 @@ struct VolumeInParts::Impl {
     void open_bare_parts();
     void share_ranges(const FrameRequest& request);
     Scene with_glyphs(const Scene& scene);
-    std::vector<std::byte> draw_own(const FrameRequest& request);
-    Frame draw_folded(const FrameRequest& alone);
-    std::vector<double> shades(const FrameRequest& alone);
-    std::vector<std::byte> draw_own_light(const FrameRequest& request, std::vector<double> depths);
-    Frame draw_surfaces(const FrameRequest& request);
-    void draw_light(const FrameRequest& request, PartsPicture& picture);
+    DrawParts drawing(const FrameRequest& request);
+    DrawParts drawing_light(const FrameRequest& request, std::vector<double> depths);
+    std::vector<double> shades(const FrameRequest& alone, SharedFold& fold);
+    SharedFrame draw_surfaces(const FrameRequest& request, SharedFold& fold);
+    Frame draw(const FrameRequest& request, bool with_buffers);
     std::vector<PartsWork> work_of_all();
 };
 
@@ -206,49 +194,42 @@ Scene VolumeInParts::Impl::with_glyphs(const Scene& scene) {
     return made;
 }
 
-std::vector<std::byte> VolumeInParts::Impl::draw_own(const FrameRequest& request) {
-    std::vector<std::byte> bytes;
-    for (const DrawnPart& part : parts) {
-        std::array<Renderer*, 1> alone{&part.elements->renderer()};
-        Frame frame = render_in_bands(alone, request, control);
-        const auto is_own = [&](std::int64_t number) { return part.own.hold(number); };
-        pack(part_picture(part.part, std::move(frame), is_own), bytes);
-    }
-    work.picture_bytes += bytes.size();
-    return bytes;
+DrawParts VolumeInParts::Impl::drawing(const FrameRequest& request) {
+    return [this, &request](const std::function<void(const PartPicture&)>& take) {
+        for (const DrawnPart& part : parts) {
+            std::array<Renderer*, 1> alone{&part.elements->renderer()};
+            Frame frame = render_in_bands(alone, request, control);
+            take(part_picture(part.part, std::move(frame), [&](std::int64_t number) { return part.own.hold(number); }));
+        }
+    };
 }
 
 /** `depths`: of what hides the volume, of each pixel. */
-std::vector<std::byte> VolumeInParts::Impl::draw_own_light(const FrameRequest& request, std::vector<double> depths) {
+DrawParts VolumeInParts::Impl::drawing_light(const FrameRequest& request, std::vector<double> depths) {
     FrameRequest light = request;
     light.surfaces.clear();
     light.with_buffers = false;
     light.gives_runs = true;
     light.hidden_from = std::make_shared<const std::vector<double>>(std::move(depths));
-    std::vector<std::byte> bytes;
-    for (const BarePart& part : bare_parts) {
-        Renderer& renderer = part.elements->renderer();
-        if (renderer.most_pixels(light) < std::uint64_t{light.width} * light.height) {
-            throw Error("image", "a picture of so many pixels of the volume itself cannot be drawn in parts on this device");
+    return [this, light](const std::function<void(const PartPicture&)>& take) {
+        for (const BarePart& part : bare_parts) {
+            Renderer& renderer = part.elements->renderer();
+            if (renderer.most_pixels(light) < std::uint64_t{light.width} * light.height) {
+                throw Error("image",
+                            "a picture of so many pixels of the volume itself cannot be drawn in parts on this device");
+            }
+            take(part_picture(part.part, renderer.render(light, control), {}));
         }
-        pack(part_picture(part.part, renderer.render(light, control), {}), bytes);
-    }
-    work.picture_bytes += bytes.size();
-    return bytes;
-}
-
-/** A picture of one surface: of the first process; elsewhere empty. */
-Frame VolumeInParts::Impl::draw_folded(const FrameRequest& alone) {
-    const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own(alone)));
-    return team.is_first() ? folded(alone, pictures, diagonal_of(ranges->bounds()), precision) : Frame{};
+    };
 }
 
 /** Of a surface with line integral convolution, in all processes. */
-std::vector<double> VolumeInParts::Impl::shades(const FrameRequest& alone) {
+std::vector<double> VolumeInParts::Impl::shades(const FrameRequest& alone, SharedFold& fold) {
     std::array<Frame, 3> components;
     double error = 0;
     for (std::size_t component = 0; component < components.size(); ++component) {
-        components[component] = draw_folded(component_request(alone, component));
+        const FrameRequest request = component_request(alone, component);
+        components[component] = fold.collected(fold.surface(request, drawing(request)), true);
         if (!renderers.empty()) {
             const FieldChoice& vector = alone.surfaces[0].lic->vectors[component];
             error = std::hypot(error, renderers[0]->ranges().value_error(vector, alone.time_step, 0));
@@ -258,41 +239,31 @@ std::vector<double> VolumeInParts::Impl::shades(const FrameRequest& alone) {
                                          : std::vector<double>{});
 }
 
-/** Of the first process; elsewhere empty. */
-Frame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request) {
-    Frame picture = team.is_first() ? empty_picture(request, precision) : Frame{};
+SharedFrame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request, SharedFold& fold) {
+    SharedFrame picture = fold.empty();
     // One by one: a part cannot tell which lines of a surface another surface hides.
     for (const std::size_t index : drawing_order(request.surfaces)) {
         FrameRequest alone = request;
         alone.surfaces = {request.surfaces[index]};
         alone.volume.reset();
         if (alone.surfaces[0].lic) {
-            alone.shades = std::make_shared<const std::vector<double>>(shades(alone));
+            alone.shades = std::make_shared<const std::vector<double>>(shades(alone, fold));
         }
-        const Frame surface = draw_folded(alone);
-        if (team.is_first()) {
-            add_surface(surface, index, picture);
-        }
+        fold.add(fold.surface(alone, drawing(alone)), index, picture);
     }
-    finish_surfaces(picture);
+    fold.finish_surfaces(picture);
     return picture;
 }
 
-void VolumeInParts::Impl::draw_light(const FrameRequest& request, PartsPicture& picture) {
-    Frame& frame = picture.still.frame;
-    std::vector<double> depths = frame.depth;
-    std::ranges::replace_if(
-        depths, [](double depth) { return std::isnan(depth); }, std::numeric_limits<double>::infinity());
-    depths = team.of_first(std::move(depths));
-    const std::vector<PartPicture> pictures = all_pictures(team.gathered(draw_own_light(request, std::move(depths))));
-    if (team.is_first()) {
-        for (const PartPicture& part : pictures) {
-            picture.n_runs += part.facts.runs.size();
-        }
-        const auto start = std::chrono::steady_clock::now();
-        add_light(request, pictures, diagonal_of(ranges->bounds()), frame);
-        picture.fold_milliseconds = milliseconds_since(start);
+/** Of the first process; elsewhere empty. */
+Frame VolumeInParts::Impl::draw(const FrameRequest& request, bool with_buffers) {
+    SharedFold fold(request, precision, diagonal_of(ranges->bounds()), team);
+    SharedFrame picture = draw_surfaces(request, fold);
+    if (request.volume) {
+        fold.add_light(drawing_light(request, fold.depths(picture)), picture);
     }
+    work.fold = fold.work();
+    return fold.collected(std::move(picture), with_buffers);
 }
 
 std::vector<PartsWork> VolumeInParts::Impl::work_of_all() {
@@ -346,7 +317,7 @@ void VolumeInParts::forget_fields(std::span<const std::uint32_t> fields) {
     m_impl->arrows.forget();
 }
 
-PartsPicture VolumeInParts::draw(const Scene& asked) {
+PartsPicture VolumeInParts::draw(const Scene& asked, bool with_buffers) {
     Impl& impl = *m_impl;
     need_parts_can_draw(asked);
     const Scene scene = impl.with_glyphs(asked);
@@ -360,12 +331,15 @@ PartsPicture VolumeInParts::draw(const Scene& asked) {
         impl.open_bare_parts();
     }
     impl.share_ranges(request);
-    impl.work.picture_bytes = 0;
-    picture.still.frame = impl.draw_surfaces(request);
-    if (request.volume) {
-        impl.draw_light(request, picture);
-    }
+    picture.still.frame = impl.draw(request, with_buffers);
     picture.work = impl.work_of_all();
+    std::uint64_t n_lit_pixels = 0;
+    for (const PartsWork& of_rank : picture.work) {
+        n_lit_pixels += of_rank.fold.n_lit_pixels;
+        picture.n_runs += of_rank.fold.n_runs;
+        picture.fold_milliseconds = std::max(picture.fold_milliseconds, of_rank.fold.milliseconds);
+    }
+    picture.still.frame.counts.volume_pixels = n_lit_pixels;
     if (impl.team.is_first()) {
         picture.still.remarks = remarks_on(scene, request);
         finish_still(scene, impl.whole, picture.still);

@@ -7,6 +7,7 @@
 #include <core/base/cancel.hpp>
 #include <core/base/team.hpp>
 #include <core/parts/partition.hpp>
+#include <core/parts/shared_fold.hpp>
 #include <core/parts/whole_ranges.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/scene/scene.hpp>
@@ -27,8 +28,9 @@ struct PartsWork {
     std::uint32_t rank = 0;
     /** Parts that hold elements; of them elements, with those around them. */
     std::uint64_t n_parts = 0, n_own_elements = 0, n_elements = 0;
-    /** On the device, and of parts' pictures that were given to the first process. */
-    std::uint64_t device_bytes = 0, picture_bytes = 0;
+    /** On the device. */
+    std::uint64_t device_bytes = 0;
+    FoldWork fold{};
     /** Most that the process has had in memory so far; 0 if the system does not tell. */
     std::uint64_t peak_memory_bytes = 0;
 };
@@ -38,7 +40,7 @@ struct PartsPicture {
     StillPicture still;
     /** By rank; on the first alone. */
     std::vector<PartsWork> work;
-    /** Of light: runs of all parts, and how long the first process took to put them together. */
+    /** Of light: runs of all parts, and how long the process that took longest was about putting its share together. */
     std::uint64_t n_runs = 0;
     double fold_milliseconds = 0;
 };
@@ -61,8 +63,11 @@ public:
     VolumeInParts(const VolumeInParts&) = delete;
     VolumeInParts& operator=(const VolumeInParts&) = delete;
 
-    /** Throws Error for what cannot be drawn in parts (need_parts_can_draw). */
-    PartsPicture draw(const Scene& scene);
+    /**
+     * Throws Error for what cannot be drawn in parts (need_parts_can_draw). Without buffers the picture has colours and counts;
+     * the first process then gets less than half of the bytes.
+     */
+    PartsPicture draw(const Scene& scene, bool with_buffers = true);
 
     /** What this process had of the last picture. */
     const PartsWork& own_work() const;
@@ -75,7 +80,8 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/** Throws Error if the scene has what is surely not drawn in parts: line integral convolution, several samples a pixel. */
+/** Throws Error if the scene has what is surely not drawn in parts: several volumes, a budget of memory, several samples a
+ * pixel. */
 void need_parts_can_draw(const Scene& scene);
 
 } // namespace elvis

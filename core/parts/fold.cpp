@@ -2,7 +2,6 @@
 
 #include <core/camera/camera_ray.hpp>
 #include <core/render/bands.hpp>
-#include <core/render/picture/count_pixels.hpp>
 #include <core/render/picture/frame_read.hpp>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace elvis {
@@ -41,16 +41,16 @@ struct Shown {
 
 bool is_nearer(const PartPixel& one, const PartPixel* than) { return than == nullptr || one.depth < than->depth; }
 
-std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPicture> pictures) {
+std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPixels> parts) {
     std::vector<Shown> shown(n_pixels);
-    for (const PartPicture& picture : pictures) {
-        for (const PartPixel& pixel : picture.pixels) {
+    for (const PartPixels& one : parts) {
+        for (const PartPixel& pixel : one.pixels) {
             Shown& here = shown[pixel.pixel];
             here.doubt |= pixel.flags & (pixel.is_hit() && pixel.is_own == 0 ? misses : own_doubts);
             here.beside |= pixel.is_hit() ? 0 : pixel.flags;
             if (pixel.is_own != 0 && is_nearer(pixel, here.own)) {
                 here.own = &pixel;
-                here.part = picture.part;
+                here.part = one.part;
             } else if (pixel.is_own == 0 && pixel.is_hit() && is_nearer(pixel, here.other)) {
                 here.other = &pixel;
             }
@@ -98,9 +98,9 @@ void write_pixels(const std::vector<Shown>& shown, Frame& frame) {
 }
 
 /** Edges of several parts in one pixel are seen together: where one of them is certain, there is an edge. */
-void join_edges(std::span<const PartPicture> pictures, Frame& frame) {
-    for (const PartPicture& picture : pictures) {
-        for (const PartPixel& pixel : picture.pixels) {
+void join_edges(std::span<const PartPixels> parts, Frame& frame) {
+    for (const PartPixels& one : parts) {
+        for (const PartPixel& pixel : one.pixels) {
             frame.flags[pixel.pixel] |= pixel.flags & (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided);
         }
     }
@@ -126,10 +126,10 @@ std::uint32_t open_lines(const FrameRequest& request) {
     return flags;
 }
 
-/** Elements that a part's picture shows. */
-std::vector<std::int64_t> elements_seen(std::size_t n_pixels, const PartPicture& picture) {
+/** Elements that a part shows. */
+std::vector<std::int64_t> elements_seen(std::size_t n_pixels, const PartPixels& part) {
     std::vector<std::int64_t> elements(n_pixels, -1);
-    for (const PartPixel& pixel : picture.pixels) {
+    for (const PartPixel& pixel : part.pixels) {
         elements[pixel.pixel] = pixel.element;
     }
     return elements;
@@ -141,15 +141,15 @@ std::vector<std::int64_t> elements_seen(std::size_t n_pixels, const PartPicture&
  */
 class LineDoubts {
 public:
-    LineDoubts(const FrameRequest& request, Frame& frame)
-        : m_request(request), m_width(width_of_lines(request)), m_reach(line_reach(m_width)), m_flags(open_lines(request)),
-          m_frame(frame) {}
+    LineDoubts(const FrameRequest& request, const PixelBlock& block, Frame& frame)
+        : m_request(request), m_block(block), m_width(width_of_lines(request)), m_reach(line_reach(m_width)),
+          m_flags(open_lines(request)), m_frame(frame) {}
 
-    void flag(std::span<const PartPicture> pictures, const std::vector<Shown>& shown) {
-        for (const PartPicture& picture : pictures) {
-            const std::vector<std::int64_t> seen = elements_seen(shown.size(), picture);
-            for (std::size_t pixel = 0; m_flags != 0 && pixel < shown.size(); ++pixel) {
-                if (shown[pixel].own != nullptr && shown[pixel].part == picture.part && is_open(pixel, seen)) {
+    void flag(std::span<const PartPixels> parts, const std::vector<Shown>& shown) {
+        for (std::size_t index = 0; m_flags != 0 && index < parts.size(); ++index) {
+            const std::vector<std::int64_t> seen = elements_seen(shown.size(), parts[index]);
+            for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
+                if (shown[pixel].own != nullptr && shown[pixel].part == parts[index].part && is_open(pixel, seen)) {
                     doubt(pixel);
                 }
             }
@@ -174,9 +174,9 @@ private:
     }
 
     Vector3 point_seen(std::size_t pixel) const {
-        const PictureSize size{static_cast<double>(m_frame.width), static_cast<double>(m_frame.height)};
-        const PicturePoint place{static_cast<double>(pixel % m_frame.width) + 0.5,
-                                 static_cast<double>(pixel / m_frame.width) + 0.5};
+        const PictureSize size{static_cast<double>(m_request.width), static_cast<double>(m_request.height)};
+        const PicturePoint place{static_cast<double>(m_block.first_column + pixel % m_block.width) + 0.5,
+                                 static_cast<double>(m_block.first_row + pixel / m_block.width) + 0.5};
         return ray_through(m_request.camera, size, place).at(m_frame.depth[pixel]);
     }
 
@@ -194,6 +194,7 @@ private:
     void doubt(std::size_t pixel) { m_frame.flags[pixel] = settled(m_frame.flags[pixel] | m_flags); }
 
     const FrameRequest& m_request;
+    const PixelBlock& m_block;
     double m_width;
     int m_reach;
     std::uint32_t m_flags;
@@ -207,11 +208,11 @@ struct OwnedRun {
 };
 
 /** By pixel, then along the ray; those that begin together by part. */
-std::vector<OwnedRun> all_runs(std::span<const PartPicture> pictures) {
+std::vector<OwnedRun> all_runs(std::span<const PartRuns> parts) {
     std::vector<OwnedRun> runs;
-    for (const PartPicture& picture : pictures) {
-        for (const LightRun& run : picture.facts.runs) {
-            runs.push_back({&run, picture.part});
+    for (const PartRuns& one : parts) {
+        for (const LightRun& run : one.runs) {
+            runs.push_back({&run, one.part});
         }
     }
     std::ranges::stable_sort(
@@ -232,58 +233,94 @@ void put_in_front(const LightRun& light, std::span<double> color) {
 /** Of the diagonal: where faces between parts lie is rounded, far more where a ray grazes them. */
 constexpr double hardly_overlapping = 1e-4;
 
-/** Counts of work and times; what is met, and what overlaps, is known from elsewhere. */
-void add_work(const Frame& from, Frame& to) {
-    Frame facts;
-    facts.counts = from.counts;
-    facts.counts.overlapping_elements = to.counts.overlapping_elements;
-    facts.counts.half_drawn_elements = to.counts.half_drawn_elements;
-    facts.submissions = from.submissions;
-    facts.host_waits = from.host_waits;
-    facts.is_met.resize(to.is_met.size());
-    facts.special_values.resize(to.special_values.size());
-    add_part(facts, to);
-    to.render_milliseconds += from.render_milliseconds;
-    to.device_milliseconds += from.device_milliseconds;
+/** Of the block's pixels those in `kept`, `n` numbers each. */
+template <class T> void keep(std::vector<T>& numbers, const PixelBlock& block, const PixelBlock& kept, std::size_t n) {
+    std::vector<T> all = std::exchange(numbers, {});
+    numbers.reserve(kept.n_pixels() * n);
+    for (std::uint32_t row = 0; row < kept.height; ++row) {
+        const std::size_t place =
+            std::size_t{kept.first_row - block.first_row + row} * block.width + kept.first_column - block.first_column;
+        const auto from = all.begin() + static_cast<std::ptrdiff_t>(place * n);
+        numbers.insert(numbers.end(), from, from + static_cast<std::ptrdiff_t>(kept.width * n));
+    }
+}
+
+void crop(Frame& frame, const PixelBlock& block, const PixelBlock& kept) {
+    if (kept.n_pixels() == block.n_pixels()) {
+        return;
+    }
+    keep(frame.color, block, kept, 4);
+    keep(frame.value, block, kept, 1);
+    keep(frame.depth, block, kept, 1);
+    keep(frame.element, block, kept, 1);
+    keep(frame.normal, block, kept, 3);
+    keep(frame.flags, block, kept, 1);
+    frame.width = kept.width;
+    frame.height = kept.height;
 }
 
 } // namespace
 
-Frame empty_picture(const FrameRequest& request, Precision precision) {
-    FrameRequest empty = request;
+std::uint32_t reach_of_fold(const FrameRequest& request) {
+    std::uint32_t reach = 0;
+    if (open_lines(request) != 0) {
+        reach = static_cast<std::uint32_t>(line_reach(width_of_lines(request)));
+    }
+    return reach;
+}
+
+Frame empty_block(const FrameRequest& request, const PixelBlock& block, Precision precision) {
+    FrameRequest empty;
+    empty.width = block.width;
+    empty.height = block.height;
+    empty.background = request.background;
     if (precision == Precision::float32) {
         // As the device has it.
         std::ranges::transform(request.background, empty.background.begin(),
                                [](double channel) { return static_cast<double>(static_cast<float>(channel)); });
     }
-    Frame frame = background_frame(empty);
-    frame.is_met.resize(request.surfaces.size());
-    frame.special_values.resize(request.surfaces.size());
-    return frame;
+    return background_frame(empty);
 }
 
-Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Precision precision) {
-    Frame frame = empty_picture(request, precision);
-    std::uint64_t n_overlapping = 0;
-    for (const PartPicture& picture : pictures) {
-        add_part(picture.facts, frame);
-        n_overlapping = std::max(n_overlapping, picture.facts.counts.overlapping_elements);
-        frame.render_milliseconds += picture.facts.render_milliseconds;
-        frame.device_milliseconds += picture.facts.device_milliseconds;
-    }
-    // At least so many: an element may overlap some of another part.
-    frame.counts.overlapping_elements = n_overlapping;
-    std::vector<Shown> shown = nearest(frame.flags.size(), pictures);
+Frame empty_facts(const FrameRequest& request) {
+    Frame facts;
+    facts.width = request.width;
+    facts.height = request.height;
+    facts.counts.pixels = std::uint64_t{request.width} * request.height;
+    facts.is_met.resize(request.surfaces.size());
+    facts.special_values.resize(request.surfaces.size());
+    return facts;
+}
+
+Frame folded(const FrameRequest& request, const PixelBlock& block, const PixelBlock& kept, std::span<const PartPixels> parts,
+             double diagonal, Precision precision) {
+    Frame frame = empty_block(request, block, precision);
+    std::vector<Shown> shown = nearest(frame.flags.size(), parts);
     settle(shown, same_depth * diagonal);
     write_pixels(shown, frame);
     if (traits_of(request.surfaces[0].geometry).wires != nullptr) {
-        join_edges(pictures, frame);
+        join_edges(parts, frame);
     }
-    LineDoubts(request, frame).flag(pictures, shown);
+    LineDoubts(request, block, frame).flag(parts, shown);
+    crop(frame, block, kept);
     return frame;
 }
 
-void add_surface(const Frame& surface, std::size_t index, Frame& picture) {
+Frame folded_facts(const FrameRequest& request, std::span<const Frame> parts) {
+    Frame facts = empty_facts(request);
+    std::uint64_t n_overlapping = 0;
+    for (const Frame& part : parts) {
+        add_part(part, facts);
+        n_overlapping = std::max(n_overlapping, part.counts.overlapping_elements);
+        facts.render_milliseconds += part.render_milliseconds;
+        facts.device_milliseconds += part.device_milliseconds;
+    }
+    // At least so many: an element may overlap some of another part.
+    facts.counts.overlapping_elements = n_overlapping;
+    return facts;
+}
+
+void add_surface(const Frame& surface, Frame& picture) {
     for (std::size_t pixel = 0; pixel < picture.flags.size(); ++pixel) {
         const bool is_drawn = surface.element[pixel] >= 0, is_empty = picture.element[pixel] < 0;
         const bool is_nearest = is_drawn && (is_empty || surface.depth[pixel] < picture.depth[pixel]);
@@ -299,6 +336,23 @@ void add_surface(const Frame& surface, std::size_t index, Frame& picture) {
             std::copy_n(&surface.color[4 * pixel], 4, &picture.color[4 * pixel]);
         }
     }
+}
+
+void add_work(const Frame& from, Frame& to) {
+    Frame facts;
+    facts.counts = from.counts;
+    facts.counts.overlapping_elements = to.counts.overlapping_elements;
+    facts.counts.half_drawn_elements = to.counts.half_drawn_elements;
+    facts.submissions = from.submissions;
+    facts.host_waits = from.host_waits;
+    facts.is_met.resize(to.is_met.size());
+    facts.special_values.resize(to.special_values.size());
+    add_part(facts, to);
+    to.render_milliseconds += from.render_milliseconds;
+    to.device_milliseconds += from.device_milliseconds;
+}
+
+void add_surface_facts(const Frame& surface, std::size_t index, Frame& picture) {
     add_work(surface, picture);
     picture.counts.overlapping_elements = surface.counts.overlapping_elements;
     picture.is_met[index] = surface.is_met.front();
@@ -313,34 +367,27 @@ void finish_surfaces(Frame& picture) {
     for (std::uint32_t& flags : picture.flags) {
         flags = settled((flags | flags >> half_bits) & lower_half);
     }
-    count_pixels(picture);
 }
 
-void add_light(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Frame& frame) {
-    double color_error = 0;
-    for (const PartPicture& picture : pictures) {
-        add_work(picture.facts, frame);
-        color_error = std::max(color_error, picture.facts.color_error);
-    }
+std::uint64_t add_light(const LightRule& rule, std::span<const PartRuns> parts, Frame& picture) {
     std::uint64_t n_colored = 0;
-    const std::vector<OwnedRun> runs = all_runs(pictures);
+    const std::vector<OwnedRun> runs = all_runs(parts);
     for (auto next = runs.begin(); next != runs.end();) {
         LightRun light;
         light.pixel = next->run->pixel;
-        light.error = color_error;
+        light.error = rule.color_error;
         for (; next != runs.end() && next->run->pixel == light.pixel; ++next) {
-            light.flags |= next->run->first < light.end - hardly_overlapping * diagonal ? pixel_flag::undecided : 0;
+            light.flags |= next->run->first < light.end - hardly_overlapping * rule.diagonal ? pixel_flag::undecided : 0;
             add_behind(light, *next->run);
         }
-        frame.flags[light.pixel] |= light.flags;
-        frame.flags[light.pixel] |= error_of(light) <= request.volume->tolerance ? 0 : pixel_flag::volume_tolerance;
+        picture.flags[light.pixel] |= light.flags;
+        picture.flags[light.pixel] |= error_of(light) <= rule.tolerance ? 0 : pixel_flag::volume_tolerance;
         if (light.transmittance < 1) {
-            put_in_front(light, std::span(frame.color).subspan(4 * std::size_t{light.pixel}, 4));
+            put_in_front(light, std::span(picture.color).subspan(4 * std::size_t{light.pixel}, 4));
             ++n_colored;
         }
     }
-    count_pixels(frame);
-    frame.counts.volume_pixels = n_colored;
+    return n_colored;
 }
 
 } // namespace elvis

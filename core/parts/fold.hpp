@@ -1,39 +1,75 @@
 /**
  * @file fold.hpp
- * One picture from those of the parts.
+ * Pixels of a picture from what parts show there.
  */
 #pragma once
 
 #include <core/parts/part_picture.hpp>
+#include <core/parts/tile_shares.hpp>
 #include <core/render/frame.hpp>
 #include <core/vulkan/precision.hpp>
 
+#include <cstdint>
 #include <span>
+#include <vector>
 
 namespace elvis {
 
+/** What a part shows of a block of pixels, or its light there; pixels are counted in the block. */
+struct PartPixels {
+    std::uint32_t part = 0;
+    std::vector<PartPixel> pixels;
+};
+struct PartRuns {
+    std::uint32_t part = 0;
+    std::vector<LightRun> runs;
+};
+
+/** How many pixels around a pixel must be known to put it together. */
+std::uint32_t reach_of_fold(const FrameRequest& request);
+
 /** Background alone. */
-Frame empty_picture(const FrameRequest& request, Precision precision);
+Frame empty_block(const FrameRequest& request, const PixelBlock& block, Precision precision);
 
 /**
- * The picture of one surface, which is the only one of the request. Of each pixel the nearest that a part shows of its own
- * elements: the part has drawn them together with those around, so that it is the part which owns the element that the whole
- * picture shows. Where parts do not agree on which one that is, rounding decides, and the pixel is flagged as undecided (256).
- * Doubt of any part stays. `pictures`: one of each part, in their order. `diagonal`: of the whole volume's bounds. With lines,
- * pixels near which the part does not see what the picture shows are flagged as undecided (2, 512).
+ * Pixels of one surface, which is the only one of the request. Of each the nearest that a part shows of its own elements: the
+ * part has drawn them together with those around, so that it is the part which owns the element that the whole picture shows.
+ * Where parts do not agree on which one that is, rounding decides, and the pixel is flagged as undecided (256). Doubt of any
+ * part stays. With lines, pixels near which the part does not see what the picture shows are flagged as undecided (2, 512).
+ * `block`: of which all is known; `kept`: of which pixels are given. `parts`: of each at most one, in their order. `diagonal`:
+ * of the whole volume's bounds.
  */
-Frame folded(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Precision precision);
+Frame folded(const FrameRequest& request, const PixelBlock& block, const PixelBlock& kept, std::span<const PartPixels> parts,
+             double diagonal, Precision precision);
 
-/** Adds the folded picture of the surface of this index, as shaders/picture/merge.comp does. */
-void add_surface(const Frame& surface, std::size_t index, Frame& picture);
-/** When all are added: flags as callers know them, counts of pixels by them. */
+/** Adds pixels of a folded surface, as shaders/picture/merge.comp does. */
+void add_surface(const Frame& surface, Frame& picture);
+/** When all are added: flags as callers know them. */
 void finish_surfaces(Frame& picture);
 
+/** What light goes by. */
+struct LightRule {
+    double tolerance = 0;
+    /** What each channel is off besides: the most of all parts. */
+    double color_error = 0;
+    /** Of the whole volume's bounds. */
+    double diagonal = 0;
+};
+
 /**
- * Puts light of the volume in front of what the picture shows: along each ray the runs of all parts, in the order in which they
+ * Puts light of the volume in front of what the block shows: along each ray the runs of all parts, in the order in which they
  * begin. What each is off adds up; where that is more than the tolerance the pixel is flagged (128), and as undecided (256)
- * where runs overlap by more than rounding.
+ * where runs overlap by more than rounding. Returns how many pixels have light.
  */
-void add_light(const FrameRequest& request, std::span<const PartPicture> pictures, double diagonal, Frame& frame);
+std::uint64_t add_light(const LightRule& rule, std::span<const PartRuns> parts, Frame& picture);
+
+/** Frames without pixels: all else that is known of a picture. */
+Frame empty_facts(const FrameRequest& request);
+/** Of one surface, from those of the parts. */
+Frame folded_facts(const FrameRequest& request, std::span<const Frame> parts);
+/** Adds those of the surface of this index. */
+void add_surface_facts(const Frame& surface, std::size_t index, Frame& picture);
+/** Counts of work and times alone. */
+void add_work(const Frame& from, Frame& to);
 
 } // namespace elvis

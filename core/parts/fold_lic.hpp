@@ -3,8 +3,8 @@
  * Line integral convolution on a surface whose parts were drawn apart.
  *
  * Streaks follow the vectors across the faces between parts, so no part can draw its own: all parts draw the three components
- * of the vector, the first process folds these pictures and averages noise along the curves, as in pictures of the whole
- * (core/render/picture/lic_pass.hpp), and parts then draw colours with the factors that come of it.
+ * of the vector, the first process gets these pictures put together, and averages noise along the curves, as in pictures of the
+ * whole (core/render/picture/lic_pass.hpp), and parts then draw colours with the factors that come of it.
  */
 #pragma once
 

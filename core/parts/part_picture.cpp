@@ -29,12 +29,11 @@ template <class T> std::vector<T> take_items(std::span<const std::byte>& bytes, 
 
 template <class T> T take(std::span<const std::byte>& bytes) { return take_items<T>(bytes, 1).front(); }
 
-struct Facts {
-    std::uint64_t n_pixels, n_runs;
+struct FactsHead {
     FrameCounts counts;
-    double color_error, render_milliseconds, device_milliseconds;
+    double render_milliseconds, device_milliseconds;
     std::uint64_t submissions, host_waits;
-    std::uint32_t part, width, height, n_surfaces, n_special;
+    std::uint32_t width, height, n_surfaces, n_special;
 };
 
 } // namespace
@@ -66,39 +65,32 @@ PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bo
     return picture;
 }
 
-void pack(const PartPicture& picture, std::vector<std::byte>& bytes) {
-    const Frame& frame = picture.facts;
-    put(bytes, Facts{picture.pixels.size(), frame.runs.size(), frame.counts, frame.color_error, frame.render_milliseconds,
-                     frame.device_milliseconds, frame.submissions, frame.host_waits, picture.part, frame.width, frame.height,
-                     static_cast<std::uint32_t>(frame.is_met.size()), static_cast<std::uint32_t>(frame.special_values.size())});
-    const std::vector<std::uint8_t> is_met(frame.is_met.begin(), frame.is_met.end());
+void pack_facts(const Frame& facts, std::vector<std::byte>& bytes) {
+    put(bytes, FactsHead{facts.counts, facts.render_milliseconds, facts.device_milliseconds, facts.submissions,
+                         facts.host_waits, facts.width, facts.height, static_cast<std::uint32_t>(facts.is_met.size()),
+                         static_cast<std::uint32_t>(facts.special_values.size())});
+    const std::vector<std::uint8_t> is_met(facts.is_met.begin(), facts.is_met.end());
     put(bytes, std::span(is_met));
-    put(bytes, std::span(frame.special_values));
-    put(bytes, std::span(picture.pixels));
-    put(bytes, std::span(frame.runs));
+    put(bytes, std::span(facts.special_values));
 }
 
-std::vector<PartPicture> unpacked(std::span<const std::byte> bytes) {
-    std::vector<PartPicture> pictures;
+std::vector<Frame> unpacked_facts(std::span<const std::byte> bytes) {
+    std::vector<Frame> all;
     while (!bytes.empty()) {
-        const auto facts = take<Facts>(bytes);
-        PartPicture& picture = pictures.emplace_back();
-        picture.part = facts.part;
-        picture.facts.width = facts.width;
-        picture.facts.height = facts.height;
-        picture.facts.counts = facts.counts;
-        picture.facts.render_milliseconds = facts.render_milliseconds;
-        picture.facts.device_milliseconds = facts.device_milliseconds;
-        picture.facts.submissions = facts.submissions;
-        picture.facts.host_waits = facts.host_waits;
-        const auto is_met = take_items<std::uint8_t>(bytes, facts.n_surfaces);
-        picture.facts.is_met.assign(is_met.begin(), is_met.end());
-        picture.facts.special_values = take_items<SpecialValues>(bytes, facts.n_special);
-        picture.pixels = take_items<PartPixel>(bytes, facts.n_pixels);
-        picture.facts.runs = take_items<LightRun>(bytes, facts.n_runs);
-        picture.facts.color_error = facts.color_error;
+        const auto head = take<FactsHead>(bytes);
+        Frame& facts = all.emplace_back();
+        facts.width = head.width;
+        facts.height = head.height;
+        facts.counts = head.counts;
+        facts.render_milliseconds = head.render_milliseconds;
+        facts.device_milliseconds = head.device_milliseconds;
+        facts.submissions = head.submissions;
+        facts.host_waits = head.host_waits;
+        const auto is_met = take_items<std::uint8_t>(bytes, head.n_surfaces);
+        facts.is_met.assign(is_met.begin(), is_met.end());
+        facts.special_values = take_items<SpecialValues>(bytes, head.n_special);
     }
-    return pictures;
+    return all;
 }
 
 } // namespace elvis

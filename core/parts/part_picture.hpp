@@ -41,8 +41,8 @@ struct PartPicture {
 /** `is_own`: whether the element of that number is the part's. */
 PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own);
 
-/** To be sent, one after the other; and back. Between processes of one program on machines of one kind. */
-void pack(const PartPicture& picture, std::vector<std::byte>& bytes);
-std::vector<PartPicture> unpacked(std::span<const std::byte> bytes);
+/** Facts to be sent, one part's after the other's; and back. Between processes of one program on machines of one kind. */
+void pack_facts(const Frame& facts, std::vector<std::byte>& bytes);
+std::vector<Frame> unpacked_facts(std::span<const std::byte> bytes);
 
 } // namespace elvis

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <span>
 
 namespace elvis {
 
@@ -14,7 +15,7 @@ namespace {
 std::vector<std::uint32_t> read_numbers(const std::string& path, std::uint64_t n_elements) {
     std::ifstream file(path);
     if (!file) {
-        throw Error(path, "there is no such file, or it cannot be read; --parts takes a number or a file of numbers");
+        throw Error(path, "there is no such file, or it cannot be read; --parts takes a number, a file of numbers, or own");
     }
     std::vector<std::uint32_t> parts;
     std::string word;
@@ -38,11 +39,10 @@ std::vector<std::uint32_t> read_numbers(const std::string& path, std::uint64_t n
     return parts;
 }
 
-} // namespace
-
-Partition read_partition(const std::string& path, const RuntimeVolume& whole) {
-    const std::vector<std::uint32_t> by_number = read_numbers(path, whole.n_elements());
-    std::vector<std::vector<Span>> parts(*std::ranges::max_element(by_number) + std::size_t{1});
+/** `by_number`: the part of each element, by its number. `path`: for errors. */
+std::vector<std::vector<Span>> runs_of_parts(std::span<const std::uint32_t> by_number, std::size_t n_parts,
+                                             const std::string& path, const RuntimeVolume& whole) {
+    std::vector<std::vector<Span>> parts(n_parts);
     constexpr std::uint64_t at_once = 65536;
     std::vector<std::int64_t> numbers;
     for (std::uint64_t element = 0; element < whole.n_elements(); ++element) {
@@ -62,7 +62,28 @@ Partition read_partition(const std::string& path, const RuntimeVolume& whole) {
             runs.push_back({element, element + 1});
         }
     }
-    return Partition(std::move(parts));
+    return parts;
+}
+
+} // namespace
+
+Partition read_partition(const std::string& path, const RuntimeVolume& whole) {
+    const std::vector<std::uint32_t> by_number = read_numbers(path, whole.n_elements());
+    return Partition(runs_of_parts(by_number, *std::ranges::max_element(by_number) + std::size_t{1}, path, whole));
+}
+
+Partition own_partition(const native::VolumeSource& source, const RuntimeVolume& whole) {
+    const std::uint32_t n_parts = source.description().n_parts;
+    if (n_parts == 0) {
+        throw Error(whole.path(), "has no partition of its own, so there is no --parts own; --parts N or --parts FILE say one");
+    }
+    std::vector<std::uint32_t> by_number(whole.n_elements());
+    try {
+        source.read_parts(0, by_number);
+    } catch (const native::FileError& error) {
+        throw Error(error.what());
+    }
+    return Partition(runs_of_parts(by_number, n_parts, whole.path(), whole));
 }
 
 } // namespace elvis

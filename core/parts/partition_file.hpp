@@ -6,6 +6,8 @@
 
 #include <core/parts/partition.hpp>
 
+#include <elvis/native/volume_source.hpp>
+
 #include <string>
 
 namespace elvis {
@@ -17,5 +19,8 @@ inline constexpr std::uint32_t most_parts = 1000000;
  * which it belongs, counted from 0. What gpmetis and mpmetis write. Throws Error that names the line.
  */
 Partition read_partition(const std::string& path, const RuntimeVolume& whole);
+
+/** That of the volume's own file, which has it from a solver. Throws Error if it has none. `whole` serves `source`. */
+Partition own_partition(const native::VolumeSource& source, const RuntimeVolume& whole);
 
 } // namespace elvis

@@ -25,6 +25,7 @@ struct Plugin::Impl {
     std::optional<elvis_extrema> extrema;
     std::optional<elvis_apex_bounds> apex_bounds;
     std::vector<FileFormat> formats;
+    std::optional<elvis_parts> parts;
 };
 
 namespace {
@@ -87,6 +88,10 @@ const char* missing_function(const elvis_apex_bounds& table) {
 
 const char* missing_function(const elvis_formats& table) {
     return table.n_formats == 0 || table.formats != nullptr ? nullptr : "formats";
+}
+
+const char* missing_function(const elvis_parts& table) {
+    return !table.get_n_parts ? "get_n_parts" : !table.get_parts ? "get_parts" : nullptr;
 }
 
 template <class Table>
@@ -165,6 +170,7 @@ std::shared_ptr<const Plugin> Plugin::load(const std::filesystem::path& library)
     impl.converter = read_interface<elvis_converter>(library, descriptor, ELVIS_CONVERTER_INTERFACE);
     impl.extrema = read_interface<elvis_extrema>(library, descriptor, ELVIS_EXTREMA_INTERFACE);
     impl.apex_bounds = read_interface<elvis_apex_bounds>(library, descriptor, ELVIS_APEX_BOUNDS_INTERFACE);
+    impl.parts = read_interface<elvis_parts>(library, descriptor, ELVIS_PARTS_INTERFACE);
     if (const auto formats = read_interface<elvis_formats>(library, descriptor, ELVIS_FORMATS_INTERFACE)) {
         impl.formats = formats_of(*formats);
     }
@@ -223,6 +229,7 @@ const std::vector<FileFormat>& Plugin::formats() const { return m_impl->formats;
 const elvis_runtime* Plugin::runtime() const { return m_impl->runtime ? &*m_impl->runtime : nullptr; }
 const elvis_converter* Plugin::converter() const { return m_impl->converter ? &*m_impl->converter : nullptr; }
 const elvis_extrema* Plugin::extrema() const { return m_impl->extrema ? &*m_impl->extrema : nullptr; }
+const elvis_parts* Plugin::parts() const { return m_impl->parts ? &*m_impl->parts : nullptr; }
 const elvis_apex_bounds* Plugin::apex_bounds() const { return m_impl->apex_bounds ? &*m_impl->apex_bounds : nullptr; }
 
 std::string abi_version_text(std::uint32_t version) {

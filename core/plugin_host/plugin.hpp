@@ -8,6 +8,7 @@
 #include <elvis/converter.h>
 #include <elvis/extrema.h>
 #include <elvis/formats.h>
+#include <elvis/parts.h>
 #include <elvis/plugin.h>
 #include <elvis/runtime.h>
 
@@ -62,6 +63,7 @@ public:
     const elvis_converter* converter() const;
     const elvis_extrema* extrema() const;
     const elvis_apex_bounds* apex_bounds() const;
+    const elvis_parts* parts() const;
 
 private:
     Plugin();

@@ -27,6 +27,7 @@ struct SourceVolume::Impl {
     std::vector<double> times;
     std::vector<std::string> groups;
     std::size_t n_values = 0;
+    std::uint32_t n_parts = 0;
 
     ~Impl() {
         if (source) {
@@ -47,6 +48,7 @@ struct SourceVolume::Impl {
     }
 
     void read_description();
+    void read_n_parts();
 };
 
 void SourceVolume::Impl::read_description() {
@@ -98,6 +100,16 @@ void SourceVolume::Impl::read_description() {
     }
 }
 
+void SourceVolume::Impl::read_n_parts() {
+    constexpr std::uint32_t most_parts = 1000000;
+    if (const elvis_parts* const of_parts = plugin->parts()) {
+        call("get_n_parts", of_parts->get_n_parts, &n_parts);
+        if (n_parts > most_parts) {
+            refuse("get_n_parts", std::to_string(n_parts) + " parts");
+        }
+    }
+}
+
 SourceVolume::SourceVolume(std::shared_ptr<const Plugin> plugin, const std::vector<std::string>& paths,
                            const std::string& options, const TaskControl* control)
     : m_impl(std::make_unique<Impl>()) {
@@ -123,6 +135,7 @@ SourceVolume::SourceVolume(std::shared_ptr<const Plugin> plugin, const std::vect
     }
     m_impl->source = source;
     m_impl->read_description();
+    m_impl->read_n_parts();
 }
 
 SourceVolume::SourceVolume(std::shared_ptr<const Plugin> plugin, const std::string& name,
@@ -147,6 +160,19 @@ const elvis_source_info& SourceVolume::info() const { return m_impl->info; }
 const std::vector<SourceField>& SourceVolume::fields() const { return m_impl->fields; }
 const std::vector<double>& SourceVolume::times() const { return m_impl->times; }
 const std::vector<std::string>& SourceVolume::boundary_groups() const { return m_impl->groups; }
+std::uint32_t SourceVolume::n_parts() const { return m_impl->n_parts; }
+
+void SourceVolume::parts(std::uint64_t first, std::span<std::uint32_t> out) const {
+    assert(m_impl->n_parts > 0 && first + out.size() <= m_impl->info.n_elements);
+    const elvis_parts& table = *m_impl->plugin->parts();
+    m_impl->call("get_parts", table.get_parts, first, std::uint64_t{out.size()}, out.data());
+    for (const std::uint32_t part : out) {
+        if (part >= m_impl->n_parts) {
+            m_impl->refuse("get_parts", "part " + std::to_string(part) + " of " + std::to_string(m_impl->n_parts));
+        }
+    }
+}
+
 std::size_t SourceVolume::n_values() const { return m_impl->n_values; }
 
 void SourceVolume::elements(std::uint64_t first, std::uint64_t count, std::span<elvis_source_element> out) const {

@@ -42,6 +42,10 @@ public:
     const std::vector<SourceField>& fields() const;
     const std::vector<double>& times() const;
     const std::vector<std::string>& boundary_groups() const;
+    /** 0 if the data are in one piece, or the plugin does not tell (elvis/parts.h). */
+    std::uint32_t n_parts() const;
+    /** Of elements, each below n_parts. */
+    void parts(std::uint64_t first, std::span<std::uint32_t> out) const;
     /** Sum of the components of all fields: numbers a point in sample(). */
     std::size_t n_values() const;
 

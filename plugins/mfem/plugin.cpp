@@ -118,6 +118,14 @@ public:
 
     elvis_string get_boundary_group(std::uint32_t group) { return m_groups[group].c_str(); }
 
+    std::uint32_t n_parts() const { return m_parts.size() > 1 ? static_cast<std::uint32_t>(m_parts.size()) : 0; }
+
+    void get_parts(std::uint64_t first, std::span<std::uint32_t> parts) const {
+        for (std::uint64_t index = 0; index < parts.size(); ++index) {
+            parts[index] = static_cast<std::uint32_t>(place(first + index).part);
+        }
+    }
+
 private:
     struct Place {
         std::size_t part;
@@ -205,6 +213,7 @@ constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 
 } // namespace
 
-ELVIS_PLUGIN(.id = "org.elvis.mfem", .name = "MFEM reader", .version = "1.0.0", .vendor = "ElVis",
+ELVIS_PLUGIN(.id = "org.elvis.mfem", .name = "MFEM reader", .version = "1.1.0", .vendor = "ElVis",
              .description = "Converts meshes and grid functions of MFEM: H1, L2, Nedelec, Raviart-Thomas and NURBS fields.",
-             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table,
+             .parts = elvis::api::parts_table<Source>());

@@ -22,6 +22,9 @@ public:
 
     std::uint32_t dimension() const { return geometry().content().dimension(); }
     std::uint64_t n_elements() const { return geometry().content().n_elements; }
+    /** Of the first step; 1 if it is in one piece. */
+    std::uint32_t n_parts() const { return m_steps.front()->n_parts(); }
+    std::uint32_t part(std::uint64_t element) const { return m_steps.front()->part(element); }
     std::size_t n_steps() const { return m_steps.size(); }
     double time(std::size_t step) const { return m_steps[step]->content().time; }
     /** Those that all time steps have. */

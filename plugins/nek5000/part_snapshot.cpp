@@ -116,6 +116,8 @@ std::shared_ptr<const PartSnapshot::Places> PartSnapshot::places() const {
     return m_places;
 }
 
+std::uint32_t PartSnapshot::part(std::uint64_t element) const { return (*places())[element].part; }
+
 void PartSnapshot::forget() const {
     const std::lock_guard lock(m_mutex);
     m_places.reset();

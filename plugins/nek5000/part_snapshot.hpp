@@ -20,6 +20,7 @@ public:
     static std::string first_part(const std::string& path, OpenFiles& files);
 
     void read(std::size_t block, std::uint64_t element, std::span<double> values) const override;
+    std::uint32_t part(std::uint64_t element) const override;
     void forget() const override;
     Precision precision() const override {
         return m_parts.front().header.format.real_size == 8 ? double_precision : single_precision;

@@ -103,6 +103,14 @@ public:
 
     elvis_string get_boundary_group(std::uint32_t group) { return m_data.boundary().names()[group].c_str(); }
 
+    std::uint32_t n_parts() const { return m_data.n_parts() > 1 ? m_data.n_parts() : 0; }
+
+    void get_parts(std::uint64_t first, std::span<std::uint32_t> parts) const {
+        for (std::uint64_t index = 0; index < parts.size(); ++index) {
+            parts[index] = m_data.part(first + index);
+        }
+    }
+
 private:
     /** If there are none but coordinates, the elements' numbers are the field. */
     bool has_fields() const { return !m_data.fields().empty(); }
@@ -121,6 +129,7 @@ constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 
 } // namespace
 
-ELVIS_PLUGIN(.id = "org.elvis.nek5000", .name = "Nek5000 reader", .version = "1.0.0", .vendor = "ElVis",
+ELVIS_PLUGIN(.id = "org.elvis.nek5000", .name = "Nek5000 reader", .version = "1.1.0", .vendor = "ElVis",
              .description = "Converts field files of Nek5000, NekRS and Neko (.f00001, .fld01, .nek5000).",
-             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table,
+             .parts = elvis::api::parts_table<Source>());

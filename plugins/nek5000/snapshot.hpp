@@ -38,6 +38,8 @@ public:
 
     /** Values of all nodes of an element, component by component, the first direction fastest. Room for all of them. */
     virtual void read(std::size_t block, std::uint64_t element, std::span<double> values) const = 0;
+    /** In which part an element is; 0 if there is one. */
+    virtual std::uint32_t part(std::uint64_t) const { return 0; }
     /** Frees the table of elements until it is needed again. */
     virtual void forget() const {}
     /** Of the numbers in the file. */

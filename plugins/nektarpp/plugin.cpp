@@ -15,9 +15,9 @@ constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 
 } // namespace
 
-ELVIS_PLUGIN(.id = "org.elvis.nektarpp", .name = "Nektar++ reader", .version = "1.1.0", .vendor = "ElVis",
+ELVIS_PLUGIN(.id = "org.elvis.nektarpp", .name = "Nektar++ reader", .version = "1.2.0", .vendor = "ElVis",
              .description = "Draws and converts Nektar++ meshes (.xml) and fields (.fld, .chk): all shapes, curved and "
                             "mixed-order elements, partitioned directories.",
              .runtime = nektarpp::runtime_interface(), .converter = nektarpp::converter_interface(),
              .extrema = nektarpp::extrema_interface(), .apex_bounds = nektarpp::apex_bounds_interface(),
-             .formats = &formats_table);
+             .formats = &formats_table, .parts = nektarpp::parts_interface());

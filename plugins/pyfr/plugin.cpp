@@ -10,7 +10,9 @@
 #include <plugins/nodal/element_blocks.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <set>
 
 namespace {
 
@@ -97,9 +99,34 @@ public:
 
     double get_time(std::uint32_t step) { return is_bare() ? 0 : m_series.time(step); }
 
+    std::uint32_t n_parts() const {
+        const std::size_t n = partitions().size();
+        return n > 1 ? static_cast<std::uint32_t>(n) : 0;
+    }
+
+    void get_parts(std::uint64_t first, std::span<std::uint32_t> parts) const {
+        const std::vector<std::int64_t> all = partitions();
+        for (std::uint64_t index = 0; index < parts.size(); ++index) {
+            const ElementSet& set = set_of(first + index);
+            std::uint64_t end = set.first;
+            const auto is_beyond = [&](const PartSize& part) { return first + index < (end += part.count); };
+            const std::int64_t partition = std::ranges::find_if(set.parts, is_beyond)->partition;
+            parts[index] = static_cast<std::uint32_t>(std::ranges::lower_bound(all, partition) - all.begin());
+        }
+    }
+
     elvis_string get_boundary_group(std::uint32_t group) { return m_mesh->groups()[group].c_str(); }
 
 private:
+    /** Numbers of partitions, ascending: gaps have none. */
+    std::vector<std::int64_t> partitions() const {
+        std::set<std::int64_t> numbers;
+        for (const ElementSet& set : m_mesh->sets()) {
+            std::ranges::transform(set.parts, std::inserter(numbers, numbers.end()), &PartSize::partition);
+        }
+        return {numbers.begin(), numbers.end()};
+    }
+
     Source(const elvis::api::Host& host, const Input& input)
         : ConverterSource(host), m_mesh(open_mesh(elvis::hdf5::File(input.mesh))), m_series(input.solutions, *m_mesh),
           m_linear(find_linear_elements(*m_mesh, host)) {}
@@ -169,6 +196,7 @@ constexpr elvis_formats formats_table = elvis::api::formats_table(formats);
 
 } // namespace
 
-ELVIS_PLUGIN(.id = "org.elvis.pyfr", .name = "PyFR reader", .version = "1.0.0", .vendor = "ElVis",
+ELVIS_PLUGIN(.id = "org.elvis.pyfr", .name = "PyFR reader", .version = "1.1.0", .vendor = "ElVis",
              .description = "Converts meshes and solutions of PyFR (.pyfrm, .pyfrs).",
-             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table);
+             .converter = elvis::api::converter_table<Source>(), .formats = &formats_table,
+             .parts = elvis::api::parts_table<Source>());

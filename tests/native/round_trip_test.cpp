@@ -19,6 +19,28 @@ TEST_CASE("A volume is read back bit by bit") {
     }
 }
 
+TEST_CASE("Parts of a solver are stored by the elements' numbers, and those that do not exist are refused") {
+    const TemporaryFolder folder;
+    VolumeData data = small_volume();
+    write(folder.path("none.h5"), data);
+    CHECK(Reader(folder.path("none.h5")).description().n_parts == 0);
+    const std::uint64_t n = data.description.n_elements();
+    std::vector<std::uint32_t> parts(n);
+    for (std::uint64_t element = 0; element < n; ++element) {
+        parts[element] = static_cast<std::uint32_t>(element % 2);
+    }
+    data.description.n_parts = 2;
+    CHECK_THROWS_AS(write(folder.path("missing.h5"), data), FileError);
+    write(folder.path("parts.h5"), data, parts);
+    const Reader reader(folder.path("parts.h5"));
+    CHECK(reader.description().n_parts == 2);
+    std::vector<std::uint32_t> found(n - 1);
+    reader.read_parts(1, found);
+    CHECK(std::ranges::equal(found, std::span(parts).subspan(1)));
+    parts.back() = 2;
+    CHECK_THROWS_AS(write(folder.path("beyond.h5"), data, parts), FileError);
+}
+
 TEST_CASE("Extrema of fields without a transform are stored with the volume") {
     const TemporaryFolder folder;
     for (const VolumeData& data : {small_volume(), large_volume()}) {

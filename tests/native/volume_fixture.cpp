@@ -164,9 +164,12 @@ void write_blocks(Writer& writer, const VolumeData& data) {
     writer.write_faces(0, d.n_faces, data.faces);
 }
 
-void write(const std::string& path, const VolumeData& data) {
+void write(const std::string& path, const VolumeData& data, std::span<const std::uint32_t> parts) {
     Writer writer(path, data.description);
     write_blocks(writer, data);
+    if (!parts.empty()) {
+        writer.write_parts(parts);
+    }
     writer.commit();
 }
 

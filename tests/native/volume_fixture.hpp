@@ -31,7 +31,7 @@ VolumeData small_volume();
 
 /** Writes all blocks but does not commit. */
 void write_blocks(Writer& writer, const VolumeData& data);
-void write(const std::string& path, const VolumeData& data);
+void write(const std::string& path, const VolumeData& data, std::span<const std::uint32_t> parts = {});
 /** Opens a file and reads all there is. */
 VolumeData read_all(const std::string& path);
 

@@ -79,14 +79,30 @@ TEST_CASE("One to four processes draw the bytes that one program draws in the sa
     }
 }
 
-TEST_CASE("The volume itself is the same by two processes") {
+TEST_CASE("Light, wide lines and streaks are the same by any number of processes, which share what is put together") {
     const MpiFolder folder;
-    REQUIRE(folder.run("render volume.json --parts 3 -o one.png --buffers one.h5").status == 0);
-    const Outcome outcome = folder.launch("-n 2 \"$E\" render volume.json --parts 3 -o many.png --buffers many.h5");
-    INFO(outcome.err);
-    REQUIRE(outcome.status == 0);
-    CHECK(folder.read("many.png") == folder.read("one.png"));
-    CHECK(folder.read("many.h5") == folder.read("one.h5"));
+    folder.write("lines.json", R"~({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [96, 72]},
+        "surfaces": [{"type": "plane", "plane": [1, 0.2, 0, 0.1]}], "contours": {"count": 5, "width": 3}, "mesh_lines": {},
+        "lic": {"length": 6, "field": "y*grad(x) - x*grad(y)"}, "lighting": "default"})~");
+    for (const auto& [scene, counts] :
+         {std::pair<std::string, std::vector<std::string>>{"volume", {"2", "4"}}, {"lines", {"3"}}}) {
+        REQUIRE(folder.run("render " + scene + ".json --parts 3 -o one.png --buffers one.h5").status == 0);
+        for (const std::string& n : counts) {
+            INFO(scene << " by " << n << " processes");
+            const Outcome outcome = folder.launch("-n " + n + " \"$E\" render " + scene +
+                                                  ".json --parts 3 -o many.png --buffers many.h5 --stats many.json");
+            INFO(outcome.err);
+            REQUIRE(outcome.status == 0);
+            CHECK(folder.read("many.png") == folder.read("one.png"));
+            CHECK(folder.read("many.h5") == folder.read("one.h5"));
+            for (const auto& rank : nlohmann::json::parse(folder.read("many.json"))["parts"]["ranks"]) {
+                CHECK(rank["received_bytes"].get<std::uint64_t>() > 0);
+            }
+        }
+    }
+    // Without buffers less is sent; the picture is the same.
+    REQUIRE(folder.launch("-n 3 \"$E\" render lines.json --parts 3 -o fewer.png").status == 0);
+    CHECK(folder.read("fewer.png") == folder.read("one.png"));
 }
 
 TEST_CASE("More processes than parts: some have nothing to draw") {

@@ -67,6 +67,19 @@ TEST_CASE("meshes of the plane are read in all layouts", "[pyfr]") {
     CHECK(x[2] == 0);
 }
 
+TEST_CASE("elements of several partitions keep theirs", "[pyfr]") {
+    const int layout = GENERATE(0, 1);
+    const Written files;
+    write(files, two_variables(), layout);
+    const SourceVolume source = open_pyfr({files.mesh, files.solution});
+    REQUIRE(source.n_parts() == (layout == 0 ? 2 : 0));
+    if (layout == 0) {
+        std::vector<std::uint32_t> parts(2);
+        source.parts(2, parts);
+        CHECK(parts == std::vector<std::uint32_t>{0, 1});
+    }
+}
+
 TEST_CASE("edges of the plane keep their boundary groups", "[pyfr]") {
     const int layout = GENERATE(0, 1, 2);
     const Written files;

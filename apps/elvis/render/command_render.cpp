@@ -161,7 +161,7 @@ void add_output(CLI::App& command, RenderArguments& a) {
     command.add_option(
         "--parts", a.parts,
         "N: draw the volume in that many parts, one after the other, as elvis-mpi does with many processes; FILE: "
-        "in those that it gives each element, as gpmetis writes them");
+        "in those that it gives each element, as gpmetis writes them; own: in those of the solver that wrote the data");
     command.add_option("--device-memory", a.device_memory,
                        "Size, such as 2G: the most that pictures may take on the device; only elements that they need are "
                        "read and uploaded");

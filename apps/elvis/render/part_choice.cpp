@@ -11,6 +11,9 @@ namespace elvis::commands {
 
 namespace {
 
+/** For the partition that the volume's file has. */
+constexpr const char* own_parts_word = "own";
+
 /** How many parts; nothing for the name of a file. */
 std::optional<std::uint32_t> number_of_parts(const std::string& text) {
     std::uint32_t number = 0;
@@ -46,9 +49,12 @@ void check_parts(const RenderArguments& arguments, bool is_animation) {
     }
 }
 
-Partition partition_of(const RenderArguments& arguments, const RuntimeVolume& whole) {
+Partition partition_of(const RenderArguments& arguments, const NativeVolume& volume) {
+    if (arguments.parts == own_parts_word) {
+        return own_partition(*volume.source, volume.whole);
+    }
     const std::optional<std::uint32_t> n_parts = number_of_parts(arguments.parts);
-    return n_parts ? Partition::in_shares(whole.n_elements(), *n_parts) : read_partition(arguments.parts, whole);
+    return n_parts ? Partition::in_shares(volume.whole.n_elements(), *n_parts) : read_partition(arguments.parts, volume.whole);
 }
 
 } // namespace elvis::commands

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "native_volume.hpp"
 #include "render_options.hpp"
 
 #include <core/parts/partition.hpp>
@@ -13,7 +14,8 @@ namespace elvis::commands {
 /** Throws UsageError for options that do not go with --parts, and for several processes without it. */
 void check_parts(const RenderArguments& arguments, bool is_animation);
 
-/** Parts of a volume. Throws Error for a file that does not say a part of each element. */
-Partition partition_of(const RenderArguments& arguments, const RuntimeVolume& whole);
+/** Parts of a volume. Throws Error for a file that does not say a part of each element, and where the volume has no partition
+ * of its own. */
+Partition partition_of(const RenderArguments& arguments, const NativeVolume& volume);
 
 } // namespace elvis::commands

@@ -34,7 +34,7 @@ std::vector<Scene> frames_of(const Scene& scene, const RuntimeVolume& whole, Vol
         still.time_step = still.range_steps.front();
     }
     // Where the camera stands follows from bounds and ranges that the group finds out together.
-    const Camera camera = parts.draw(still).still.request.camera;
+    const Camera camera = parts.draw(still, false).still.request.camera;
     std::vector<Scene> all;
     for (const AnimationFrame& frame : animation_frames(*scene.animation, still.range_steps, scene.time_step, camera)) {
         Scene& one = all.emplace_back(still);
@@ -56,7 +56,7 @@ public:
         if (m_group.of_first({m_arguments.resume && fs::exists(file) ? 1.0 : 0.0}).front() != 0) {
             return;
         }
-        const PartsPicture picture = m_parts.draw(scene);
+        const PartsPicture picture = m_parts.draw(scene, false);
         if (m_group.is_first()) {
             write_png(picture.still.frame, file.string(), m_arguments.bits);
             tell(frame, picture.still.remarks);

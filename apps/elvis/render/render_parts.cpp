@@ -31,7 +31,10 @@ nlohmann::ordered_json work_json(const std::vector<PartsWork>& work) {
                          {"own_elements", one.n_own_elements},
                          {"elements", one.n_elements},
                          {"device_bytes", one.device_bytes},
-                         {"picture_bytes", one.picture_bytes},
+                         {"picture_bytes", one.fold.sent_bytes},
+                         {"received_bytes", one.fold.received_bytes},
+                         {"runs", one.fold.n_runs},
+                         {"fold_milliseconds", one.fold.milliseconds},
                          {"peak_memory_bytes", one.peak_memory_bytes}});
     }
     return ranks;
@@ -82,14 +85,14 @@ void render_parts(const RenderArguments& arguments, const scene& shown) {
     const Precision precision = scene.precision.value_or(Precision::float32);
     const Device device(arguments.device, arguments.validation);
     name_devices(device, team);
-    Partition partition = partition_of(arguments, volume.whole);
+    Partition partition = partition_of(arguments, volume);
     const std::uint32_t n_parts = partition.n_parts();
     if (scene.animation) {
         render_parts_film(arguments, scene, volume, device, std::move(partition), team, control);
         return;
     }
     VolumeInParts parts(volume.source, volume.whole, device, precision, std::move(partition), team, &control);
-    const PartsPicture picture = parts.draw(scene);
+    const PartsPicture picture = parts.draw(scene, !arguments.buffers.empty());
     if (!team.is_first()) {
         return;
     }

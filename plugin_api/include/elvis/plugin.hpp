@@ -27,6 +27,7 @@
 #include "converter.h"
 #include "extrema.h"
 #include "formats.h"
+#include "parts.h"
 #include "plugin.h"
 #include "runtime.h"
 
@@ -494,6 +495,23 @@ template <class Source> const elvis_converter* converter_table() {
     return &table;
 }
 
+/** Draft. The table of elvis/parts.h, of a source that has n_parts() and get_parts(first, parts). */
+template <class Source> const elvis_parts* parts_table() {
+    static const elvis_parts table = [] {
+        elvis_parts t{};
+        t.struct_size = sizeof t;
+        t.get_n_parts = [](elvis_source_volume* source, std::uint32_t* n_parts) {
+            return detail::guard_on(detail::self<Source>(source), [&](Source& s) { *n_parts = s.n_parts(); });
+        };
+        t.get_parts = [](elvis_source_volume* source, std::uint64_t first, std::uint64_t count, std::uint32_t* parts) {
+            return detail::guard_on(detail::self<Source>(source),
+                                    [&](Source& s) { s.get_parts(first, std::span(parts, static_cast<std::size_t>(count))); });
+        };
+        return t;
+    }();
+    return &table;
+}
+
 /** Draft. An entry of elvis/formats.h. */
 constexpr elvis_file_format file_format(const char* name, const char* endings) {
     return {sizeof(elvis_file_format), 0, name, endings};
@@ -516,6 +534,7 @@ struct Description {
     const elvis_extrema* extrema = nullptr;
     const elvis_apex_bounds* apex_bounds = nullptr;
     const elvis_formats* formats = nullptr;
+    const elvis_parts* parts = nullptr;
 };
 
 } // namespace elvis::api
@@ -547,6 +566,9 @@ struct Description {
                                                             }                                                                  \
                                                             if (wanted == ELVIS_FORMATS_INTERFACE) {                           \
                                                                 return description.formats;                                    \
+                                                            }                                                                  \
+                                                            if (wanted == ELVIS_PARTS_INTERFACE) {                             \
+                                                                return description.parts;                                      \
                                                             }                                                                  \
                                                             return nullptr;                                                    \
                                                         }};                                                                    \

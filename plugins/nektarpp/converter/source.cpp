@@ -100,6 +100,14 @@ public:
 
     elvis_string get_boundary_group(std::uint32_t group) { return m_mesh.groups().at(group).c_str(); }
 
+    std::uint32_t n_parts() const { return m_mesh.n_parts() > 1 ? m_mesh.n_parts() : 0; }
+
+    void get_parts(std::uint64_t first, std::span<std::uint32_t> parts) const {
+        for (std::uint64_t index = 0; index < parts.size(); ++index) {
+            parts[index] = m_mesh.elements()[first + index].part;
+        }
+    }
+
 private:
     Source(const elvis::api::Host& table, Input input)
         : ConverterSource(table), m_mesh(input.geometry), m_series(host(), std::move(input.steps), m_mesh) {}
@@ -119,5 +127,7 @@ private:
 } // namespace
 
 const elvis_converter* converter_interface() { return elvis::api::converter_table<Source>(); }
+
+const elvis_parts* parts_interface() { return elvis::api::parts_table<Source>(); }
 
 } // namespace nektarpp

@@ -5,9 +5,11 @@
 #pragma once
 
 #include <elvis/converter.h>
+#include <elvis/parts.h>
 
 namespace nektarpp {
 
 const elvis_converter* converter_interface();
+const elvis_parts* parts_interface();
 
 } // namespace nektarpp

@@ -102,6 +102,26 @@ ELVIS_EXPORT elvis_result elvis_insitu_open(elvis_context* context, const elvis_
                                             elvis_insitu** insitu);
 
 /**
+ * As elvis_insitu_open, of a solver whose basis is none of the native ones: `runtime` is a table as a plugin has it
+ * (runtime.h), whose probe, open and close are not called and may be NULL, and `volume` is what its functions get, as for
+ * elvis_data_from_runtime. Nothing is copied. Both stay valid until the handle is released; the functions are called inside
+ * elvis_insitu_open_runtime and elvis_insitu_step, from threads of the library, too.
+ *
+ * What works: one rank, which serves the whole volume, of one time step: the solver's present one. All outputs of plans, with
+ * the same limits. Bounds, faces, numbers and geometry stay; all fields are taken for changed in each step in which something
+ * is made. `communicator` may be NULL: a program of one process.
+ *
+ * What does not: several ranks. A rank draws its elements together with those around them, which lie on other ranks, and
+ * records whose meaning only the solver's functions know cannot be moved there. With more ranks than one all of them get
+ * ELVIS_ERROR_INVALID_ARGUMENT. elvis_insitu_set_values is refused, and elvis_insitu_report.read_bytes is 0.
+ *
+ * Errors besides those of elvis_insitu_open: the table lacks a function that volumes need, or a function of it fails.
+ */
+ELVIS_EXPORT elvis_result elvis_insitu_open_runtime(elvis_context* context, const elvis_communicator* communicator,
+                                                    const elvis_runtime* runtime, elvis_volume* volume, elvis_string plan,
+                                                    elvis_string folder, elvis_insitu** insitu);
+
+/**
  * Not collective. Values of a field in one class of this rank's elements are at another place from now on: laid out as
  * elvis_array_field.values. Not needed where the solver writes to the same place each step.
  */

@@ -106,6 +106,9 @@ std::string problem_of(const Description& description) {
     if (description.n_elements() > most_elements || description.n_faces > 6 * most_elements) {
         return "there are too many elements or faces";
     }
+    if (description.n_parts > most_parts) {
+        return "there are too many parts";
+    }
     const auto long_note = [](const auto& note) { return too_long(note.first) || too_long(note.second); };
     if (std::any_of(description.boundary_groups.begin(), description.boundary_groups.end(), too_long) ||
         std::any_of(description.notes.begin(), description.notes.end(), long_note)) {

@@ -17,6 +17,7 @@ inline constexpr std::uint32_t most_fields = 4096;
 inline constexpr std::uint32_t most_components = 1024;
 inline constexpr std::uint32_t most_notes = 65536;
 inline constexpr std::uint32_t most_groups = 1000000;
+inline constexpr std::uint32_t most_parts = 1000000;
 inline constexpr std::uint64_t most_times = 10000000;
 inline constexpr std::uint64_t most_elements = std::uint64_t{1} << 40;
 inline constexpr std::size_t longest_text = std::size_t{1} << 20;

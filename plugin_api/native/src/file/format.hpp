@@ -15,7 +15,7 @@ namespace elvis::native::format {
 
 inline constexpr const char* mark = "ElVis native volume";
 inline constexpr std::uint32_t version_major = 1;
-inline constexpr std::uint32_t version_minor = 1;
+inline constexpr std::uint32_t version_minor = 2;
 /** Numbers in a row of the dataset `faces`: element, neighbour, local face, the neighbour's local face, group. */
 inline constexpr std::uint64_t face_numbers = 5;
 /** Numbers of an extremum in the dataset `extrema`: value, bound, class, place in the class, xi. */

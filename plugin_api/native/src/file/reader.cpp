@@ -72,9 +72,12 @@ struct Reader::Impl {
     /** By field; not valid where the file has none. */
     std::vector<Handle> extrema;
     Handle faces;
+    /** Not valid where the file tells none. */
+    Handle parts;
 
     ~Impl() {
         const h5::Lock guard;
+        parts.reset();
         faces.reset();
         extrema.clear();
         coefficients.clear();
@@ -88,6 +91,7 @@ struct Reader::Impl {
     void open_classes();
     void open_fields();
     void check_numbers();
+    void open_parts();
 
     /** Shape of the element with a number; filled when numbers or faces are first read. */
     std::vector<Shape> shape_of_number;
@@ -134,6 +138,15 @@ void Reader::Impl::read_header() {
     if (description.n_faces > 0) {
         faces = h5::open_dataset(file, "faces", H5T_STD_I64LE, {description.n_faces, format::face_numbers}, place);
     }
+}
+
+/** Since version 1.2, and not in every file. */
+void Reader::Impl::open_parts() {
+    if (!h5::has_object(file, "parts", place)) {
+        return;
+    }
+    description.n_parts = read_count<std::uint32_t>(file, "n_parts", 1, most_parts, place);
+    parts = h5::open_dataset(file, "parts", H5T_STD_U32LE, {description.n_elements()}, place);
 }
 
 void Reader::Impl::open_classes() {
@@ -236,6 +249,7 @@ Reader::Reader(const std::string& path) : m_impl(std::make_unique<Impl>()) {
         m_impl->open_file();
         m_impl->read_header();
         m_impl->open_classes();
+        m_impl->open_parts();
         m_impl->open_fields();
         const std::string problem = problem_of(m_impl->description);
         if (!problem.empty()) {
@@ -300,6 +314,20 @@ void Reader::read_numbers(std::size_t element_class, std::uint64_t first, std::u
     const h5::Lock guard;
     m_impl->check_numbers();
     h5::read_box(m_impl->numbers.at(element_class), H5T_NATIVE_INT64, {first}, {count}, numbers.data(), place);
+}
+
+void Reader::read_parts(std::uint64_t first, std::span<std::uint32_t> parts) const {
+    const Place place = m_impl->place.child("parts");
+    {
+        const h5::Lock guard;
+        h5::read_box(m_impl->parts, H5T_NATIVE_UINT32, {first}, {parts.size()}, parts.data(), place);
+    }
+    for (std::size_t index = 0; index < parts.size(); ++index) {
+        if (parts[index] >= m_impl->description.n_parts) {
+            place.fail("names part " + std::to_string(parts[index]) + " of " + std::to_string(m_impl->description.n_parts) +
+                       ", in row " + std::to_string(first + index));
+        }
+    }
 }
 
 void Reader::read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const {

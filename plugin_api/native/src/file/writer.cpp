@@ -64,6 +64,7 @@ struct Writer::Impl {
     /** By field, then class. */
     std::vector<std::vector<Handle>> coefficients;
     Handle faces;
+    Handle parts;
     /** Of each dataset of rows. */
     std::vector<h5::OpenChunk> open_geometry;
     std::vector<std::vector<h5::OpenChunk>> open_coefficients;
@@ -73,6 +74,7 @@ struct Writer::Impl {
     /** By field, class and time step. */
     std::vector<std::vector<std::vector<Coverage>>> written_coefficients;
     Coverage written_faces;
+    bool has_written_parts = false;
     /** By field and time step; none for fields with a transform. */
     std::vector<std::vector<ExtremaSearch>> searches;
     /** Element numbers that have been given out. */
@@ -89,6 +91,7 @@ struct Writer::Impl {
     }
 
     void close() {
+        parts.reset();
         faces.reset();
         coefficients.clear();
         numbers.clear();
@@ -136,6 +139,10 @@ void Writer::Impl::create_file() {
     if (description.n_faces > 0) {
         faces = h5::create_dataset(file, "faces", H5T_STD_I64LE, {description.n_faces, format::face_numbers}, 0,
                                    format::face_numbers * sizeof(std::int64_t), place);
+    }
+    if (description.n_parts > 0) {
+        h5::write_attribute(file, "n_parts", description.n_parts, place);
+        parts = h5::create_dataset(file, "parts", H5T_STD_U32LE, {description.n_elements()}, 0, sizeof(std::uint32_t), place);
     }
 }
 
@@ -276,6 +283,9 @@ void Writer::Impl::check_complete() const {
         }
     }
     require(written_faces, description.n_faces, "the list of faces");
+    if (description.n_parts > 0 && !has_written_parts) {
+        throw FileError(path, "the list of parts was not written");
+    }
     const auto unused = std::find(number_is_used.begin(), number_is_used.end(), false);
     if (unused != number_is_used.end()) {
         throw FileError(path, "no element has the number " + std::to_string(unused - number_is_used.begin()));
@@ -367,6 +377,19 @@ void Writer::write_faces(std::uint64_t first, std::uint64_t count, std::span<con
     h5::write_chunk_rows(m_impl->faces, {first, 0}, count, 0, rows.data(), H5T_NATIVE_INT64, m_impl->place, m_impl->open_faces);
     const h5::Lock guard;
     m_impl->written_faces.add(first, count);
+}
+
+void Writer::write_parts(std::span<const std::uint32_t> parts) {
+    assert(parts.size() == m_impl->description.n_elements());
+    for (const std::uint32_t part : parts) {
+        if (part >= m_impl->description.n_parts) {
+            throw FileError(m_impl->path, "cannot be written: an element is in part " + std::to_string(part) + " of " +
+                                              std::to_string(m_impl->description.n_parts));
+        }
+    }
+    const h5::Lock guard;
+    h5::write_box(m_impl->parts, H5T_NATIVE_UINT32, {0}, {parts.size()}, parts.data(), m_impl->place.child("parts"));
+    m_impl->has_written_parts = true;
 }
 
 void Writer::set_max_jump(std::size_t field, double jump) { m_impl->description.fields.at(field).max_jump = jump; }

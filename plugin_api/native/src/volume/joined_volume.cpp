@@ -233,4 +233,6 @@ std::vector<Extrema> JoinedVolume::read_extrema(std::size_t field, std::size_t t
                                  : source_of(place).read_extrema(place.field, step_of(place, time_step));
 }
 
+void JoinedVolume::read_parts(std::uint64_t first, std::span<std::uint32_t> parts) const { m_source->read_parts(first, parts); }
+
 } // namespace elvis::native

@@ -124,4 +124,6 @@ std::vector<Extrema> WarpedVolume::read_extrema(std::size_t field, std::size_t t
     return m_source->read_extrema(field, time_step);
 }
 
+void WarpedVolume::read_parts(std::uint64_t first, std::span<std::uint32_t> parts) const { m_source->read_parts(first, parts); }
+
 } // namespace elvis::native

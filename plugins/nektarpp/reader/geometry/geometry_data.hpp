@@ -41,6 +41,8 @@ struct ElementRecord {
     std::int64_t id = 0;
     /** Ids of the faces, or of the edges in two dimensions, in local order. */
     std::array<std::int64_t, 6> sides{};
+    /** Of the mesh. */
+    std::uint32_t part = 0;
 };
 
 struct Composite {
@@ -60,6 +62,8 @@ struct GeometryData {
     std::unordered_map<std::int64_t, Face> faces;
     /** In the order of the file. */
     std::vector<ElementRecord> elements;
+    /** Files of a partitioned mesh that have been read; the last is being read. */
+    std::uint32_t n_parts = 1;
     std::unordered_map<std::int64_t, Curve> edge_curves;
     std::unordered_map<std::int64_t, Curve> face_curves;
     std::vector<Composite> composites;

@@ -248,7 +248,7 @@ void Reader::read_elements(const pugi::xml_node& node) {
         }
         read_sides(child, m_file.is_compressed(child), n_sides(*shape),
                    [&](std::int64_t id, const std::array<std::int64_t, 6>& sides) {
-                       m_data.elements.push_back({*shape, id, sides});
+                       m_data.elements.push_back({*shape, id, sides, m_data.n_parts - 1});
                    });
     }
 }

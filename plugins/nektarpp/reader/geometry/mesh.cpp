@@ -32,6 +32,7 @@ public:
         const std::vector<bool> is_in_domain = elements_of_domain(m_data);
         BoundaryGroups groups = find_boundary_groups(m_data, is_in_domain);
         m_mesh.m_groups = std::move(groups.names);
+        m_mesh.m_n_parts = m_data.n_parts;
         for (const std::size_t index : order_of_ids()) {
             const ElementRecord& record = m_data.elements[index];
             m_mesh.m_index.push_back({record.shape, record.id, is_in_domain[index] ? m_mesh.m_elements.size() : no_number});
@@ -62,6 +63,7 @@ private:
         element.shape = record.shape;
         element.id = record.id;
         element.sides = record.sides;
+        element.part = record.part;
         element.first_bend = m_mesh.m_bends.size();
         for (std::size_t corner = 0; corner < static_cast<std::size_t>(native::n_corners(record.shape)); ++corner) {
             element.corners[corner] = vertex(local.corners[corner]);

@@ -29,6 +29,7 @@ struct MeshElement {
     std::array<std::int32_t, 6> groups{};
     /** Ids of the local faces, or edges in two dimensions: those with one id are one. */
     std::array<std::int64_t, 6> sides{};
+    std::uint32_t part = 0;
 };
 
 /** Immutable after construction: any thread may read. */
@@ -42,6 +43,8 @@ public:
     /** In the order of their ids, so that numbers are ids where these are 0 .. n-1. */
     const std::vector<MeshElement>& elements() const { return m_elements; }
     std::size_t n_vertices() const { return m_vertices.size(); }
+    /** 1 if the mesh is in one piece. */
+    std::uint32_t n_parts() const { return m_n_parts; }
     const std::vector<std::string>& groups() const { return m_groups; }
 
     /** What is known of an element by its shape and id. */
@@ -76,6 +79,7 @@ private:
     std::string m_path;
     std::vector<Position> m_vertices;
     std::vector<MeshElement> m_elements;
+    std::uint32_t m_n_parts = 1;
     std::vector<Bubble> m_bubbles;
     std::vector<Bend> m_bends;
     std::vector<std::string> m_groups;

@@ -66,8 +66,9 @@ void read_geometry_of(const std::vector<std::string>& parts, const std::string& 
                                 "is a second geometry, after " + geometry.path + "; give one geometry and its fields");
     }
     geometry.path = path;
-    for (const std::string& part : parts) {
-        read_geometry(XmlFile(part), geometry);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        geometry.n_parts = static_cast<std::uint32_t>(part + 1);
+        read_geometry(XmlFile(parts[part]), geometry);
     }
 }
 

@@ -82,6 +82,8 @@ struct Description {
     std::vector<double> times{0.0};
     std::vector<std::string> boundary_groups;
     std::uint64_t n_faces = 0;
+    /** Of the partition of whoever made the data, such as a solver; 0 if there is none, or it is not known. */
+    std::uint32_t n_parts = 0;
     /** Provenance and other facts as (key, value): "source file", "converter", "converter version", "created", ... */
     std::vector<std::pair<std::string, std::string>> notes;
 

@@ -56,6 +56,7 @@ public:
                       std::span<std::int64_t> numbers) const override;
     void read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const override;
     std::vector<Extrema> read_extrema(std::size_t field, std::size_t time_step) const override;
+    void read_parts(std::uint64_t first, std::span<std::uint32_t> parts) const override;
 
 private:
     /** A field of one of the volumes, at a time step of its own if it has one. */

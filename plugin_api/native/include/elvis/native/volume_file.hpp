@@ -40,6 +40,7 @@ public:
     void read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const override;
     /** None for files of version 1.0 and of other writers, and for fields with a transform. */
     std::vector<Extrema> read_extrema(std::size_t field, std::size_t time_step) const override;
+    void read_parts(std::uint64_t first, std::span<std::uint32_t> parts) const override;
 
 private:
     struct Impl;
@@ -78,6 +79,8 @@ public:
     void write_numbers(std::size_t element_class, std::uint64_t first, std::uint64_t count,
                        std::span<const std::int64_t> numbers);
     void write_faces(std::uint64_t first, std::uint64_t count, std::span<const Face> faces);
+    /** Of all elements, by their numbers. */
+    void write_parts(std::span<const std::uint32_t> parts);
     /** Known only after all blocks. */
     void set_max_jump(std::size_t field, double jump);
     /** Replaces the label given in the description: what the jumps show is known only after all blocks. */

@@ -6,6 +6,7 @@
 
 #include <elvis/native/description.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -44,6 +45,9 @@ public:
      * extrema.hpp.
      */
     virtual std::vector<Extrema> read_extrema(std::size_t field, std::size_t time_step) const = 0;
+
+    /** The parts of the elements of these numbers, each below Description::n_parts, which is not 0. */
+    virtual void read_parts(std::uint64_t, std::span<std::uint32_t> parts) const { std::ranges::fill(parts, 0u); }
 
 protected:
     VolumeSource(VolumeSource&&) = default;

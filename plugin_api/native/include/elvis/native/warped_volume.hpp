@@ -48,6 +48,7 @@ public:
                       std::span<std::int64_t> numbers) const override;
     void read_faces(std::uint64_t first, std::uint64_t count, std::span<Face> faces) const override;
     std::vector<Extrema> read_extrema(std::size_t field, std::size_t time_step) const override;
+    void read_parts(std::uint64_t first, std::span<std::uint32_t> parts) const override;
 
 private:
     struct Changes;

@@ -1,0 +1,142 @@
+#include <core/parts/shared_fold.hpp>
+
+#include <core/base/milliseconds.hpp>
+#include <core/parts/collect_tiles.hpp>
+#include <core/parts/tile_parcels.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace elvis {
+
+namespace {
+
+std::uint64_t bytes_in(const std::vector<std::vector<std::byte>>& messages) {
+    return std::accumulate(messages.begin(), messages.end(), std::uint64_t{0},
+                           [](std::uint64_t sum, const std::vector<std::byte>& one) { return sum + one.size(); });
+}
+
+std::vector<Frame> facts_in(const std::vector<std::vector<std::byte>>& of_ranks) {
+    std::vector<Frame> facts;
+    for (const std::vector<std::byte>& bytes : of_ranks) {
+        std::ranges::move(unpacked_facts(bytes), std::back_inserter(facts));
+    }
+    return facts;
+}
+
+/** Of what parts show in a tile, with pixels as the block counts them. */
+template <class Part, class Item>
+std::vector<Part> parts_in(const ReceivedParcels<Item>& received, std::uint32_t tile, const PixelBlock& block,
+                           std::uint32_t width, std::vector<Item> Part::*items) {
+    std::vector<Part> parts;
+    received.for_each_part(tile, [&](std::uint32_t part, std::vector<Item> found) {
+        for (Item& item : found) {
+            item.pixel = block.local(item.pixel, width);
+        }
+        Part& one = parts.emplace_back();
+        one.part = part;
+        one.*items = std::move(found);
+    });
+    return parts;
+}
+
+} // namespace
+
+SharedFold::SharedFold(const FrameRequest& request, Precision precision, double diagonal, Team& team)
+    : m_request(request), m_precision(precision), m_diagonal(diagonal), m_team(team),
+      m_shares(request.width, request.height, team.size(), reach_of_fold(request)) {}
+
+SharedFrame SharedFold::empty() const {
+    SharedFrame picture;
+    for (const std::uint32_t tile : m_shares.tiles(m_team.rank())) {
+        picture.tiles.push_back(empty_block(m_request, m_shares.block(tile), m_precision));
+    }
+    picture.facts = empty_facts(m_request);
+    return picture;
+}
+
+SharedFrame SharedFold::surface(const FrameRequest& alone, const DrawParts& draw) {
+    const std::uint32_t reach = reach_of_fold(alone);
+    TileParcels<PartPixel> parcels(m_shares, reach);
+    std::vector<std::byte> facts;
+    draw([&](const PartPicture& picture) {
+        parcels.add(picture.part, picture.pixels);
+        pack_facts(picture.facts, facts);
+    });
+    std::vector<std::vector<std::byte>> sent = parcels.take();
+    m_work.sent_bytes += bytes_in(sent);
+    const ReceivedParcels<PartPixel> received(m_team.exchanged(std::move(sent)));
+    m_work.received_bytes += received.n_bytes();
+    SharedFrame surface;
+    for (const std::uint32_t tile : m_shares.tiles(m_team.rank())) {
+        const PixelBlock block = m_shares.block(tile, reach);
+        const auto parts = parts_in(received, tile, block, m_request.width, &PartPixels::pixels);
+        surface.tiles.push_back(folded(alone, block, m_shares.block(tile), parts, m_diagonal, m_precision));
+    }
+    surface.facts = folded_facts(alone, facts_in(m_team.gathered(std::move(facts))));
+    return surface;
+}
+
+void SharedFold::add(const SharedFrame& surface, std::size_t index, SharedFrame& picture) const {
+    for (std::size_t tile = 0; tile < picture.tiles.size(); ++tile) {
+        add_surface(surface.tiles[tile], picture.tiles[tile]);
+    }
+    add_surface_facts(surface.facts, index, picture.facts);
+}
+
+void SharedFold::finish_surfaces(SharedFrame& picture) const {
+    std::ranges::for_each(picture.tiles, [](Frame& tile) { elvis::finish_surfaces(tile); });
+}
+
+std::vector<double> SharedFold::depths(const SharedFrame& picture) const {
+    constexpr double behind_everything = std::numeric_limits<double>::infinity();
+    if (m_request.surfaces.empty()) {
+        return std::vector<double>(std::size_t{m_request.width} * m_request.height, behind_everything);
+    }
+    std::vector<double> depths = collected_depths(m_shares, picture.tiles, m_team);
+    std::ranges::replace_if(
+        depths, [](double depth) { return std::isnan(depth); }, behind_everything);
+    return m_team.of_first(std::move(depths));
+}
+
+void SharedFold::add_light(const DrawParts& draw, SharedFrame& picture) {
+    TileParcels<LightRun> parcels(m_shares, 0);
+    std::vector<std::byte> facts;
+    // The largest, as the smallest of what is below zero.
+    double below_zero = 0;
+    draw([&](const PartPicture& part) {
+        parcels.add(part.part, part.facts.runs);
+        pack_facts(part.facts, facts);
+        below_zero = std::min(below_zero, -part.facts.color_error);
+    });
+    m_team.minimum(std::span(&below_zero, 1));
+    std::vector<std::vector<std::byte>> sent = parcels.take();
+    m_work.sent_bytes += bytes_in(sent);
+    const ReceivedParcels<LightRun> received(m_team.exchanged(std::move(sent)));
+    m_work.received_bytes += received.n_bytes();
+    m_work.n_runs = received.n_items();
+    const auto start = std::chrono::steady_clock::now();
+    const LightRule rule{m_request.volume->tolerance, -below_zero, m_diagonal};
+    const auto tiles = m_shares.tiles(m_team.rank());
+    for (std::size_t index = 0; index < tiles.size(); ++index) {
+        const PixelBlock block = m_shares.block(tiles[index]);
+        const auto parts = parts_in(received, tiles[index], block, m_request.width, &PartRuns::runs);
+        m_work.n_lit_pixels += elvis::add_light(rule, parts, picture.tiles[index]);
+    }
+    m_work.milliseconds = milliseconds_since(start);
+    for (const Frame& part : facts_in(m_team.gathered(std::move(facts)))) {
+        add_work(part, picture.facts);
+    }
+}
+
+Frame SharedFold::collected(SharedFrame picture, bool with_buffers) const {
+    return collected_frame(m_shares, m_request, m_precision, std::move(picture), with_buffers, m_team);
+}
+
+} // namespace elvis
