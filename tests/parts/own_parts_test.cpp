@@ -84,6 +84,7 @@ TEST_CASE("Parts of MFEM and of Nek5000 are kept") {
     const std::vector<std::uint32_t> parts = parts_of(folder.path("nek.h5"));
     CHECK(std::ranges::count(parts, 0u) + std::ranges::count(parts, 1u) == static_cast<std::ptrdiff_t>(parts.size()));
     CHECK(std::ranges::count(parts, 1u) > 0);
+    CHECK(std::ranges::count(parts, 0u) > 0);
 }
 
 TEST_CASE("A volume in one piece has no parts of its own") {
