@@ -4,27 +4,36 @@
 #include <core/base/milliseconds.hpp>
 #include <core/shader/compiler.hpp>
 #include <core/shader/request_records.hpp>
+#include <core/shader/texel_bindings.hpp>
 #include <core/vulkan/memory_limit.hpp>
 
 #include <cassert>
 #include <chrono>
 #include <filesystem>
+#include <set>
 
 namespace elvis {
 
 namespace {
 
-std::vector<BindingLayout> layout_of(const Device& device, const KernelRequest& request) {
+std::vector<BindingLayout> layout_of(const KernelRequest& request) {
     const RequestRecords records(request);
     std::vector<BindingLayout> layout = request.bindings;
     for (const BoundBuffer& bound : records.bindings()) {
-        layout.push_back(
-            {bound.binding, device.uses_texel_buffers() ? BindingType::texel_buffer : BindingType::storage_buffer});
+        layout.push_back({bound.binding, BindingType::storage_buffer});
     }
     if (request.watches_loops) {
         layout.push_back({records.watch_binding(), BindingType::storage_buffer});
     }
     return layout;
+}
+
+/** Records, and other buffers that the code only reads, may be texel buffers: it says so. */
+void take_texel_bindings(std::vector<BindingLayout>& layout, std::span<const std::uint32_t> spirv) {
+    const std::set<std::uint32_t> texels = texel_bindings(spirv);
+    for (BindingLayout& binding : layout) {
+        binding.type = texels.contains(binding.binding) ? BindingType::texel_buffer : binding.type;
+    }
 }
 
 /** Each once: "snippet 'my_solver' (hexahedron.glsl)". */
@@ -56,7 +65,7 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
                     .file = std::filesystem::path(request.kernel).replace_extension().string(),
                     .precision = request.precision,
                     .spirv = {},
-                    .layout = layout_of(device, request),
+                    .layout = layout_of(request),
                     .push_constant_bytes = request.push_constant_bytes};
     std::shared_ptr<void> room = need_kernel_room(device, m_name);
     m_building = device.background().hand_over(
@@ -64,6 +73,7 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
             const std::shared_ptr<void> held = std::move(room);
             const auto start = std::chrono::steady_clock::now();
             code.spirv = compile_shader(text, m_name);
+            take_texel_bindings(code.layout, code.spirv);
             const double compiler = milliseconds_since(start);
             m_kernel.emplace(device, code.spirv, code.layout, code.push_constant_bytes, m_name);
             device.add({m_name, compiler, milliseconds_since(start) - compiler, code.spirv.size() * sizeof(std::uint32_t)});

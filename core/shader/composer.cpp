@@ -284,7 +284,7 @@ std::string instances_text(const KernelRequest& request, const RequestRecords& r
 
 std::string compose(const Device* device, const KernelRequest& request, const RequestRecords& records) {
     assert(device || records.all().empty());
-    std::string text = header(request);
+    std::string text = header(request) + define("CORE_READS_TEXELS", device && device->uses_texel_buffers() ? "1" : "0");
     for (const std::string_view file : common_files) {
         text += expand_includes(shader_source(file), std::string(file), shader_source);
     }

@@ -5,7 +5,7 @@
  * The text of a kernel, in order:
  *
  *   1. #version, extensions, ELVIS_GLSL_VERSION, ELVIS_REAL_IS_DOUBLE, ELVIS_N_INSTANCES, ELVIS_WANTS_HESSIANS, the request's
- *      #defines
+ *      #defines, CORE_READS_TEXELS (arithmetic/read_only.glsl)
  *   2. arithmetic/types.glsl, arithmetic/math.glsl
  *   3. fetch functions for every record buffer of host and instances (core/shader/fetch.hpp), and the host's elvis_fetch_NAME
  *   4. the instances, the first one last; then the request's text

@@ -57,7 +57,9 @@ Allocation::Allocation(const Device& device, std::uint64_t bytes, VkBufferUsageF
     }
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
-    info.size = std::max<std::uint64_t>(bytes, 16); // Vulkan knows no empty buffers.
+    // Vulkan knows no empty buffers, and views end with a whole texel.
+    constexpr std::uint64_t texel_bytes = 16;
+    info.size = std::max((bytes + texel_bytes - 1) / texel_bytes, std::uint64_t{1}) * texel_bytes;
     info.usage =
         usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     check_vulkan(vkCreateBuffer(impl.device, &info, nullptr, &m_buffer), impl.place(), "creating a buffer");

@@ -1,22 +1,38 @@
 #include <core/vulkan/buffer.hpp>
 
 #include <core/vulkan/allocation.hpp>
+#include <core/vulkan/buffer_view.hpp>
 
 #include <cassert>
 #include <cstring>
+#include <mutex>
 
 namespace elvis {
 
+namespace {
+
+VkBufferUsageFlags usage_of(const Device& device, Buffer::Use use) {
+    if (use == Buffer::Use::uniform) {
+        return VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
+    }
+    const VkBufferUsageFlags texels = device.uses_texel_buffers() ? VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT : 0;
+    return VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | texels;
+}
+
+} // namespace
+
 struct Buffer::Impl {
+    const Device& device;
     Use use;
     Allocation allocation;
+    std::once_flag has_texels;
+    std::optional<BufferView> texels;
+
+    Impl(const Device& on, std::uint64_t bytes, Use for_use)
+        : device(on), use(for_use), allocation(on, bytes, usage_of(on, for_use), "a buffer") {}
 };
 
-Buffer::Buffer(const Device& device, std::uint64_t bytes, Use use)
-    : m_impl(std::make_unique<Impl>(
-          Impl{use, Allocation(device, bytes,
-                               use == Use::uniform ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                               "a buffer")})) {}
+Buffer::Buffer(const Device& device, std::uint64_t bytes, Use use) : m_impl(std::make_unique<Impl>(device, bytes, use)) {}
 
 Buffer::~Buffer() = default;
 Buffer::Buffer(Buffer&&) noexcept = default;
@@ -25,6 +41,14 @@ Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 VkBuffer Buffer::handle() const { return m_impl->allocation.handle(); }
 std::uint64_t Buffer::bytes() const { return m_impl->allocation.bytes(); }
 Buffer::Use Buffer::use() const { return m_impl->use; }
+
+VkBufferView Buffer::texels() const {
+    assert(m_impl->device.uses_texel_buffers() && m_impl->use == Use::storage);
+    std::call_once(m_impl->has_texels, [this] {
+        m_impl->texels.emplace(m_impl->device, m_impl->allocation.handle(), VK_FORMAT_R32G32B32A32_UINT);
+    });
+    return m_impl->texels->handle();
+}
 
 void Buffer::write(std::uint64_t offset, std::span<const std::byte> data) const {
     m_impl->allocation.write(offset, data.size(), 1, [&](std::uint64_t from, std::span<std::byte> destination) {

@@ -27,6 +27,8 @@ public:
     VkBuffer handle() const;
     std::uint64_t bytes() const;
     Use use() const;
+    /** As uvec4 texels; made at the first call. Only of storage buffers, where Device::uses_texel_buffers. */
+    VkBufferView texels() const;
 
     void write(std::uint64_t offset, std::span<const std::byte> data) const;
     void read(std::uint64_t offset, std::span<std::byte> data) const;

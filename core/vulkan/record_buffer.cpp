@@ -1,7 +1,7 @@
 #include <core/base/error.hpp>
 #include <core/vulkan/allocation.hpp>
 #include <core/vulkan/buffer.hpp>
-#include <core/vulkan/check.hpp>
+#include <core/vulkan/buffer_view.hpp>
 #include <core/vulkan/device_impl.hpp>
 
 #include <algorithm>
@@ -10,31 +10,6 @@
 namespace elvis {
 
 namespace {
-
-class BufferView {
-public:
-    BufferView(const Device& device, VkBuffer buffer, VkFormat format) : m_device(device) {
-        VkBufferViewCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
-        info.buffer = buffer;
-        info.format = format;
-        info.range = VK_WHOLE_SIZE;
-        check_vulkan(vkCreateBufferView(device.handle(), &info, nullptr, &m_view), device.impl().place(),
-                     "creating a buffer view");
-    }
-    ~BufferView() {
-        m_device.impl().queue->when_done(
-            [device = m_device.handle(), view = m_view] { vkDestroyBufferView(device, view, nullptr); });
-    }
-    BufferView(const BufferView&) = delete;
-    BufferView& operator=(const BufferView&) = delete;
-
-    VkBufferView handle() const { return m_view; }
-
-private:
-    const Device& m_device;
-    VkBufferView m_view = VK_NULL_HANDLE;
-};
 
 struct Part {
     Allocation allocation;

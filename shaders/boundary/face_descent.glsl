@@ -34,8 +34,8 @@ void core_end_if(bool ends, inout core_face_descent descent) {
 uint core_next_word(bool is_wanted, float end_t, inout core_face_descent descent) {
     const bool is_popped = is_wanted && descent.stack_size > 0u, is_listed = is_wanted && !is_popped;
     const uint at = descent.list + 1u + 2u * min(descent.entry, max(descent.n_entries, 1u) - 1u);
-    const bool is_behind = is_listed && uintBitsToFloat(core_tiles[at + 1u]) > end_t;
-    const uint word = is_behind ? CORE_NO_PATCH : is_popped ? CORE_TOP : core_tiles[at];
+    const bool is_behind = is_listed && uintBitsToFloat(CORE_WORD(core_tiles, at + 1u)) > end_t;
+    const uint word = is_behind ? CORE_NO_PATCH : is_popped ? CORE_TOP : CORE_WORD(core_tiles, at);
     descent.entry = is_behind ? descent.n_entries : descent.entry + (is_listed ? 1u : 0u);
     descent.stack_size -= is_popped ? 1u : 0u;
     return word;

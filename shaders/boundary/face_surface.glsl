@@ -1,5 +1,6 @@
 // Bindings of the kernels that draw faces, and how the nearest crossing gets into the picture.
 
+#include "arithmetic/read_only.glsl"
 #include "element/place.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
@@ -7,11 +8,11 @@ layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample cor
 layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
-layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(set = 0, binding = 5) CORE_READ_WORDS(core_tiles);
 // Pixels that boundary/faces.comp leaves to boundary/faces_careful.comp; core_counts[3] of them.
 layout(set = 0, binding = 6, std430) buffer core_list_block { uint core_list[]; };
 // Depths behind which crossings are wanted; CORE_FAR where none is. Read if core_has_beyond.
-layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+layout(set = 0, binding = 7) CORE_READ_REALS(core_beyond);
 // Written if core_wants_places.
 layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
 layout(push_constant) uniform core_parameters {

@@ -124,7 +124,7 @@ void main() {
     const uint column = tile % core_tiles_per_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
     const uint first_row = tile / core_tiles_per_row * CORE_TILE_HEIGHT;
     const uint list = tile * CORE_TILE_STRIDE;
-    const uint n_listed = core_tiles[list] & ~CORE_TILE_INNER;
+    const uint n_listed = CORE_WORD(core_tiles, list) & ~CORE_TILE_INNER;
     const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     const core_cut_column along = core_cut_begin(elvis_real(column));
     uint n_steps = 0u, n_evaluations = 0u;

@@ -210,7 +210,7 @@ void main() {
     core_ray ray = core_pixel_ray(core_cut_begin(elvis_real(column)), elvis_real(row));
     const bool is_wanted = core_look_beyond(pixel, ray);
     const uint list = (column / CORE_TILE_WIDTH + (row / CORE_TILE_HEIGHT) * core_tiles_per_row) * CORE_TILE_STRIDE;
-    const uint n_entries = is_pixel && is_wanted ? core_tiles[list] & ~CORE_TILE_INNER : 0u;
+    const uint n_entries = is_pixel && is_wanted ? CORE_WORD(core_tiles, list) & ~CORE_TILE_INNER : 0u;
 
     core_face_descent descent = core_face_descent(list, n_entries, 0u, 0u);
     core_careful_search search = core_careful_search_begin();

@@ -5,7 +5,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "arithmetic/precision.glsl"
 #include "picture/samples.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 0) CORE_READ_SAMPLES(core_samples);
 layout(set = 0, binding = 1, std430) buffer core_marks_block { core_mark core_marks[]; };
 #define CORE_OTHERS_BINDING 2
 #include "cut_surface/other_elements.glsl"
@@ -27,7 +27,7 @@ void main() {
     const elvis_real value =
         core_shown_value(is_listed ? other.element : 0u, is_listed ? elvis_vec3(other.x, other.y, other.z) : CORE_CENTROID);
     // Of no number it cannot be said that it makes no difference.
-    if (is_listed && !(abs(value - core_samples[other.pixel].value) <= elvis_real(core_value_tolerance))) {
+    if (is_listed && !(abs(value - CORE_SAMPLE_VALUE(core_samples, other.pixel)) <= elvis_real(core_value_tolerance))) {
         core_marks[other.pixel].owner |= CORE_OWNER_AMBIGUOUS;
     }
 }

@@ -14,7 +14,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "cut_surface/hit_point.glsl"
 
 layout(set = 0, binding = 1, std430) buffer core_samples_block { core_sample core_samples[]; };
-layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(set = 0, binding = 2) CORE_READ_WORDS(core_tiles);
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 5, std430) readonly buffer core_hits_block { core_hit_record core_hits[]; };
@@ -27,7 +27,7 @@ layout(set = 0, binding = 7, std430) writeonly buffer core_places_block { core_p
 
 uint core_first_entry() { return core_listed_tile(core_first) * CORE_TILE_STRIDE + 1u; }
 
-uint core_entry(uint i) { return core_tiles[core_first_entry() + i]; }
+uint core_entry(uint i) { return CORE_WORD(core_tiles, core_first_entry() + i); }
 
 #define CORE_OTHERS_BINDING 6
 #include "cut_surface/other_elements.glsl"
@@ -57,7 +57,7 @@ void main() {
     const uint tile = core_listed_tile(core_first), tiles_per_row = (core_size.x + CORE_TILE_WIDTH - 1u) / CORE_TILE_WIDTH;
     const uint column = tile % tiles_per_row * CORE_TILE_WIDTH + gl_LocalInvocationID.x;
     const uint first_row = tile / tiles_per_row * CORE_TILE_HEIGHT;
-    const uint n_entries = core_tiles[core_first_entry() - 1u];
+    const uint n_entries = CORE_WORD(core_tiles, core_first_entry() - 1u);
     const uint end_row = n_entries > 0u && column < core_size.x ? min(first_row + CORE_TILE_HEIGHT, core_size.y) : first_row;
     uint n_steps = 0u, n_failures = 0u, n_evaluations = 0u, n_found = 0u;
     const core_cut_column along = core_cut_begin(elvis_real(column));

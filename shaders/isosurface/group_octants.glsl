@@ -36,9 +36,9 @@ uint core_take_octants(uint list, uint n_listed, uint column, uint row) {
     }
     barrier();
     for (uint i = lane; i < n_listed; i += CORE_TILE_WIDTH) {
-        const uint word = core_tiles[list + 1u + 2u * i];
+        const uint word = CORE_WORD(core_tiles, list + 1u + 2u * i);
         const bool is_inner = (word & CORE_TILE_INNER) != 0u;
-        const vec2 span = vec2(uintBitsToFloat(core_tiles[list + 2u + 2u * i]), 3e38);
+        const vec2 span = vec2(uintBitsToFloat(CORE_WORD(core_tiles, list + 2u + 2u * i)), 3e38);
         const bool is_met = core_frustum_meets_isovalue(core_fetch_octant(is_inner ? 0u : word), frustum, span);
         atomicOr(core_taken[i / 32u], is_inner || is_met ? 1u << (i % 32u) : 0u);
     }
@@ -46,8 +46,8 @@ uint core_take_octants(uint list, uint n_listed, uint column, uint row) {
     for (uint i = lane; i < n_listed; i += CORE_TILE_WIDTH) {
         if ((core_taken[i / 32u] >> (i % 32u) & 1u) != 0u) {
             const uint place = core_n_taken(i);
-            core_group_words[place] = core_tiles[list + 1u + 2u * i];
-            core_group_enter_t[place] = uintBitsToFloat(core_tiles[list + 2u + 2u * i]);
+            core_group_words[place] = CORE_WORD(core_tiles, list + 1u + 2u * i);
+            core_group_enter_t[place] = uintBitsToFloat(CORE_WORD(core_tiles, list + 2u + 2u * i));
         }
     }
     barrier();

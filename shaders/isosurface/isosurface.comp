@@ -33,11 +33,11 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "isosurface/isosurface_blur.glsl"
 #include "arithmetic/count.glsl"
 
-layout(set = 0, binding = 5, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(set = 0, binding = 5) CORE_READ_WORDS(core_tiles);
 #if CORE_HAS_MASK
 // Of pixels that are drawn; zero of others.
-layout(set = 0, binding = 12, std430) readonly buffer core_mask_block { uint core_mask[]; };
-bool core_is_chosen(uint pixel) { return core_mask[pixel] != 0u; }
+layout(set = 0, binding = 12) CORE_READ_WORDS(core_mask);
+bool core_is_chosen(uint pixel) { return CORE_WORD(core_mask, pixel) != 0u; }
 #else
 bool core_is_chosen(uint pixel) { return true; }
 #endif
@@ -170,7 +170,7 @@ void main() {
     const uint first_row = tile / core_tiles_per_row * CORE_TILE_HEIGHT + gl_WorkGroupID.y * CORE_ROWS;
     const uint list = tile * CORE_TILE_STRIDE;
     core_begin_isovalues();
-    const uint n_listed = core_take_octants(list, core_tiles[list] & ~CORE_TILE_INNER, first_column, first_row);
+    const uint n_listed = core_take_octants(list, CORE_WORD(core_tiles, list) & ~CORE_TILE_INNER, first_column, first_row);
     const uint end_row = n_listed > 0u && column < core_size.x ? min(first_row + CORE_ROWS, core_size.y) : first_row;
     const core_cut_column along = core_cut_begin(elvis_real(column));
     core_interval_counts counts = core_interval_counts(0u, 0u, 0u, 0u, 0u);

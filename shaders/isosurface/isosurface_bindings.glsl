@@ -8,8 +8,8 @@ layout(set = 0, binding = 2, std430) writeonly buffer core_normals_block { elvis
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
 // Behind the isovalues four numbers for each clipping plane: normal and height, above zero where the surface is kept.
-layout(set = 0, binding = 6, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
-layout(set = 0, binding = 7, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+layout(set = 0, binding = 6) CORE_READ_REALS(core_isovalues);
+layout(set = 0, binding = 7) CORE_READ_REALS(core_beyond);
 layout(set = 0, binding = 8, std430) writeonly buffer core_places_block { core_place core_places[]; };
 // An upper bound of the surface's normal curvatures, without sign.
 layout(set = 0, binding = 9, std430) writeonly buffer core_bending_block { elvis_real core_bending[]; };

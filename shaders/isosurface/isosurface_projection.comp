@@ -32,7 +32,7 @@ layout(local_size_x = 32) in;
 #include "isosurface/isosurface_blur.glsl"
 #include "arithmetic/count.glsl"
 
-layout(set = 0, binding = 5, std430) readonly buffer core_list_block { uint core_list[]; };
+layout(set = 0, binding = 5) CORE_READ_WORDS(core_list);
 layout(push_constant) uniform core_parameters {
     uint core_width;
     // Of the list.
@@ -51,7 +51,7 @@ layout(push_constant) uniform core_parameters {
 };
 
 #include "isosurface/isovalues.glsl"
-elvis_real core_listed_value(uint i) { return core_isovalues[i]; }
+elvis_real core_listed_value(uint i) { return CORE_REAL(core_isovalues, i); }
 
 #define CORE_CENTRE core_reference.xyz
 #define CORE_SEGMENT_CURVATURE(element) elvis_real(elvis_fetch_core_curvatures(element, 0u))
@@ -177,7 +177,7 @@ void core_count_projection(core_projection_search search) {
 void main() {
     const uint place = core_first + gl_GlobalInvocationID.x;
     const bool is_pixel = place < core_end;
-    const uint pixel = is_pixel ? core_list[place] : 0u;
+    const uint pixel = is_pixel ? CORE_WORD(core_list, place) : 0u;
     const core_cut_column along = core_cut_begin(elvis_real(pixel % core_width));
     core_ray ray = core_pixel_ray(along, elvis_real(pixel / core_width));
     const bool is_looked_for = core_look_beyond(pixel, ray) && is_pixel;

@@ -11,8 +11,8 @@ core_kept_part core_kept_part_of(const core_ray ray) {
     elvis_real from = ray.least_t, to = CORE_FAR;
     for (uint i = 0u; i < core_n_clips; ++i) {
         const uint row = core_n_isovalues + 4u * i;
-        const elvis_vec3 normal = elvis_vec3(core_isovalues[row], core_isovalues[row + 1u], core_isovalues[row + 2u]);
-        const elvis_real above = dot(normal, ray.origin) + core_isovalues[row + 3u], slope = dot(normal, ray.direction);
+        const elvis_vec3 normal = CORE_REAL3(core_isovalues, row);
+        const elvis_real above = dot(normal, ray.origin) + CORE_REAL(core_isovalues, row + 3u), slope = dot(normal, ray.direction);
         const elvis_real crossing = -above / slope;
         from = slope > elvis_real(0) ? max(from, crossing) : from;
         to = slope < elvis_real(0) ? min(to, crossing) : to;

@@ -1,8 +1,9 @@
 // Whether the rays of a tile can meet an isovalue in an octant; for tiles/ray_tiles.comp.
 
+#include "arithmetic/read_only.glsl"
 #include "picture/samples.glsl"
 
-layout(std430, set = 0, binding = 3) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+layout(set = 0, binding = 3) CORE_READ_REALS(core_isovalues);
 
 #include "isosurface/isovalues.glsl"
 #include "isosurface/octant_frustum.glsl"

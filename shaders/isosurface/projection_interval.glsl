@@ -67,7 +67,7 @@ void core_projection_solve(core_traced_ray traced_ray, inout core_projection_sea
     const bool refines = !is_none && is_uncertain && CORE_PLAIN == 0;
     const bool is_full = core_fit_is_full(search.interval.values);
     const bool halves = refines && is_full && search.interval.level < CORE_MOST_LEVELS;
-    search.isovalue = core_isovalues[search.candidate.index];
+    search.isovalue = CORE_REAL(core_isovalues, search.candidate.index);
     search.rises = lower_value < upper_value;
     search.is_seen_below = search.is_seen_above = false;
     // Beside an interval's end the root of the field may be outside of the bracket.

@@ -8,9 +8,9 @@ layout(local_size_x = 32) in;
 #include "picture/view.glsl"
 #include "tiles/node_tiles.glsl"
 
-layout(set = 0, binding = 1, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
-layout(set = 0, binding = 2, std430) readonly buffer core_list_block { uint core_list[]; };
-layout(set = 0, binding = 6, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 1) CORE_READ_WORDS(core_tiles);
+layout(set = 0, binding = 2) CORE_READ_WORDS(core_list);
+layout(set = 0, binding = 6) CORE_READ_SAMPLES(core_samples);
 layout(push_constant) uniform core_parameters {
     uint core_width;
     uint core_tiles_per_row;
@@ -40,9 +40,9 @@ layout(push_constant) uniform core_parameters {
 // Puts what the list of the tile names on the stack, its first entry uppermost; returns their number.
 uint core_stack_tile(uint column, uint row) {
     const uint tile = row / CORE_TILE_HEIGHT * core_tiles_per_row + column / CORE_TILE_WIDTH;
-    const uint n_entries = core_tiles[tile * CORE_TILE_STRIDE];
+    const uint n_entries = CORE_WORD(core_tiles, tile * CORE_TILE_STRIDE);
     for (uint i = 0u; i < n_entries; ++i) {
-        core_stack[i] = core_tiles[tile * CORE_TILE_STRIDE + n_entries - i];
+        core_stack[i] = CORE_WORD(core_tiles, tile * CORE_TILE_STRIDE + n_entries - i);
     }
     return n_entries;
 }
@@ -50,7 +50,7 @@ uint core_stack_tile(uint column, uint row) {
 void main() {
     const uint i = core_first + gl_GlobalInvocationID.x;
     const bool is_pixel = i < core_first + core_n_listed;
-    const uint pixel = core_list[is_pixel ? i : core_first];
+    const uint pixel = CORE_WORD(core_list, is_pixel ? i : core_first);
     const uint column = pixel % core_width, row = pixel / core_width;
     const uint owner = core_marks[pixel].owner;
     core_surface surface =
@@ -60,7 +60,7 @@ void main() {
         core_no_lines_yet(is_seen && core_n_isovalues > 0u, is_seen && core_with_mesh_lines != 0u);
     core_line_search search = core_begin_search(elvis_real(column), elvis_real(row), core_subdivisions, wanted, false);
 #if CORE_STRONGLY_BENT
-    surface.own_number = owner != 0u ? core_samples[pixel].number : CORE_NO_NUMBER;
+    surface.own_number = owner != 0u ? CORE_SAMPLE_NUMBER(core_samples, pixel) : CORE_NO_NUMBER;
     for (uint turn = owner != 0u ? 0u : 1u; turn < 2u; ++turn) {
         core_begin_turn(turn == 0u, core_stack_tile(column, row), search);
         core_search_lines(surface, search);

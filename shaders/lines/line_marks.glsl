@@ -9,7 +9,7 @@
 // [0]: evaluations; others: entries of lists of pixels.
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
-layout(set = 0, binding = 5, std430) readonly buffer core_isovalues_block { elvis_real core_isovalues[]; };
+layout(set = 0, binding = 5) CORE_READ_REALS(core_isovalues);
 
 #include "arithmetic/count.glsl"
 

@@ -2,18 +2,19 @@
 
 #include "arithmetic/driver_limit.glsl"
 #include "arithmetic/precision.glsl"
+#include "arithmetic/read_only.glsl"
 #include "lines/line_marks.glsl"
 
-layout(set = 0, binding = 2, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+layout(set = 0, binding = 2) CORE_READ_REALS(core_normals);
 // Words of element/place.glsl, as in core_open.
-layout(set = 0, binding = 7, std430) readonly buffer core_list_block { uint core_list[]; };
+layout(set = 0, binding = 7) CORE_READ_WORDS(core_list);
 #if CORE_ON_FACES
-layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 1) CORE_READ_SAMPLES(core_samples);
 layout(set = 0, binding = 6, std430) readonly buffer core_places_block { core_place core_places[]; };
 layout(set = 0, binding = 8, std430) writeonly buffer core_open_block { uint core_open[]; };
 #else
-layout(set = 0, binding = 6, std430) readonly buffer core_bending_block { elvis_real core_bending[]; };
-layout(set = 0, binding = 8, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 6) CORE_READ_REALS(core_bending);
+layout(set = 0, binding = 8) CORE_READ_SAMPLES(core_samples);
 layout(set = 0, binding = 9, std430) writeonly buffer core_open_block { uint core_open[]; };
 #endif
 layout(push_constant) uniform core_parameters {
@@ -53,7 +54,7 @@ core_listed_pixel core_listed_pixel_here() {
     const uint i = core_first + gl_GlobalInvocationID.x;
     core_listed_pixel listed;
     listed.is_pixel = i < core_first + core_n_listed;
-    const uint word = core_list[listed.is_pixel ? i : core_first];
+    const uint word = CORE_WORD(core_list, listed.is_pixel ? i : core_first);
     listed.pixel = word & CORE_LIST_PIXEL;
     const uvec2 place = uvec2(listed.pixel % core_size.x, listed.pixel / core_size.x);
     listed.column = elvis_real(place.x);

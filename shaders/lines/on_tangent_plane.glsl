@@ -33,7 +33,7 @@ core_line_search core_begin_surface(core_listed_pixel listed, out core_surface s
     const elvis_real half_size = core_first_half_size(is_smooth);
     surface.corners = core_tangent_square(listed.tangent, core_picture_square(listed.column, listed.row, half_size));
     const core_departure bent = core_departure_in(surface.corners, listed.tangent, listed.ray, half_size,
-                                                  core_bending[listed.pixel], listed.around.turning, false);
+                                                  CORE_REAL(core_bending, listed.pixel), listed.around.turning, false);
     surface.departure = bent.distance;
     surface.box = core_box_around(surface.corners, surface.corners.error + bent.distance, 0.0);
 

@@ -15,12 +15,12 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 #include "picture/view.glsl"
 #include "lines/line_marks.glsl"
 
-layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
-layout(set = 0, binding = 2, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+layout(set = 0, binding = 1) CORE_READ_SAMPLES(core_samples);
+layout(set = 0, binding = 2) CORE_READ_REALS(core_normals);
 layout(set = 0, binding = 6, std430) buffer core_places_block { core_place core_places[]; };
 layout(set = 0, binding = 7, std430) writeonly buffer core_list_block { uint core_list[]; };
 #if !CORE_ON_FACES
-layout(set = 0, binding = 8, std430) readonly buffer core_bending_block { elvis_real core_bending[]; };
+layout(set = 0, binding = 8) CORE_READ_REALS(core_bending);
 #endif
 layout(push_constant) uniform core_parameters {
     uvec2 core_size;
@@ -44,7 +44,7 @@ uint core_next_row(uint column, uint row, uint end_row) {
     bool is_idle = true;
     while (is_idle && row < end_row) {
         const uint pixel = row * core_size.x + column;
-        const bool is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
+        const bool is_outside = CORE_SAMPLE_NUMBER(core_samples, pixel) == CORE_NO_NUMBER;
         const bool is_mine = is_outside ? core_takes_outside != 0u : core_class_of(core_places[pixel]) == core_class;
         is_idle = core_marks[pixel].owner == 0u || !is_mine;
         row += is_idle ? 1u : 0u;
@@ -72,7 +72,8 @@ core_shown_square core_pixel_square(core_element_image image, core_place place, 
     core_cut_square corners = core_tangent_square(tangent, in_picture);
     may_end_near = core_may_end_near(pixel, corners, tangent);
     // What a loose bound decides is no estimate.
-    const core_departure bent = core_departure_in(corners, tangent, ray, in_picture.half_size, core_bending[pixel], around.turning, true);
+    const core_departure bent = core_departure_in(corners, tangent, ray, in_picture.half_size, CORE_REAL(core_bending, pixel),
+                                                  around.turning, true);
     corners.error += bent.distance;
     core_shown_square square = core_shown_square_at(image, corners, tangent.normal, ray.direction, CORE_NO_FACE);
     square.is_whole_pixel = around.is_smooth;
@@ -83,7 +84,7 @@ core_shown_square core_pixel_square(core_element_image image, core_place place, 
 }
 
 void core_settle(uvec2 at, uint pixel) {
-    const bool is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
+    const bool is_outside = CORE_SAMPLE_NUMBER(core_samples, pixel) == CORE_NO_NUMBER;
     const core_place place = core_places[pixel];
     const core_element_image image =
         core_element_image_at(is_outside ? 0u : place.element, elvis_vec3(place.x, place.y, place.z));

@@ -6,6 +6,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "arithmetic/precision.glsl"
 #include "picture/view.glsl"
 #include "arithmetic/finite.glsl"
+#include "arithmetic/read_only.glsl"
 #include "picture/samples.glsl"
 #include "picture/seen_point.glsl"
 // A kernel without light costs nothing for it; nor does one without lines, or planes that clip.
@@ -13,27 +14,29 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "picture/place_error.glsl"
 #endif
 #if CORE_IS_LIT
-#define CORE_LIGHTS_BINDING 6
+#define CORE_LIGHTS_BINDING 7
 #include "picture/lighting.glsl"
-layout(set = 0, binding = 7, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
+layout(set = 0, binding = 8) CORE_READ_REALS(core_normals);
 #endif
 #if CORE_HAS_WIDE_LINES
 #include "picture/line_stretch.glsl"
-layout(set = 0, binding = 6 + 2 * CORE_IS_LIT + CORE_IS_SHADED, std430) readonly buffer core_stretches_block { uint core_stretches[]; };
+layout(set = 0, binding = 7 + 2 * CORE_IS_LIT + CORE_IS_SHADED) CORE_READ_WORDS(core_stretches);
 #endif
 #if CORE_IS_SHADED
 // Factors of colours, by line integral convolution (picture/lic.comp).
-layout(set = 0, binding = 6 + 2 * CORE_IS_LIT, std430) readonly buffer core_shades_block { elvis_real core_shades[]; };
+layout(set = 0, binding = 7 + 2 * CORE_IS_LIT) CORE_READ_REALS(core_shades);
 #endif
 
-layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 1) CORE_READ_SAMPLES(core_samples);
 // In this order: points of the table; colours below, above, for NaN, and where nothing is seen; colours of undecided contours, of
 // mesh lines and undecided ones; opacity, and colour outside of elements; limits of values: up to the first they have no
 // place on the table's scale, and below the second and above the third they are outside of it; planes that clip; isovalues with
 // the colours of their contours.
-layout(set = 0, binding = 2, std430) readonly buffer core_rows_block { elvis_vec4 core_rows[]; };
+layout(set = 0, binding = 2) CORE_READ_ROWS(core_rows);
 layout(set = 0, binding = 3, std430) writeonly buffer core_colors_block { elvis_vec4 core_colors[]; };
 layout(set = 0, binding = 4, std430) buffer core_marks_block { core_mark core_marks[]; };
+// The same, as they are before.
+layout(set = 0, binding = 6) CORE_READ_MARKS(core_old_marks);
 // Four words a surface: 1 where there are values below, above, and such that are no numbers; where a pixel shows it.
 layout(set = 0, binding = 5, std430) buffer core_special_block { uint core_special_values[]; };
 layout(push_constant) uniform core_parameters {
@@ -60,7 +63,7 @@ layout(push_constant) uniform core_parameters {
 #define CORE_STYLE_COLOR 2u
 #define CORE_STYLE_ONLY_DECIDED 4u
 
-elvis_vec4 core_special(uint which) { return core_rows[core_n_points + which]; }
+elvis_vec4 core_special(uint which) { return CORE_ROW(core_rows, core_n_points + which); }
 
 // The point that the pixel sees, relative to the reference point, and the direction of its ray, of any length.
 elvis_vec3 core_position(uint pixel, elvis_real depth, out elvis_vec3 direction) {
@@ -76,7 +79,7 @@ struct core_clipping {
 
 elvis_real core_above_plane(uint pixel, elvis_vec4 plane) {
     elvis_vec3 direction;
-    return dot(plane.xyz, core_position(pixel, core_samples[pixel].depth, direction)) + plane.w;
+    return dot(plane.xyz, core_position(pixel, CORE_SAMPLE_DEPTH(core_samples, pixel), direction)) + plane.w;
 }
 
 // How much that changes from the pixel to its neighbours on the surface, which tells how steep the surface is seen.
@@ -86,16 +89,16 @@ elvis_real core_change_above_plane(uint pixel, elvis_vec4 plane, elvis_real abov
     for (int i = 0; i < 4; ++i) {
         const ivec2 there = clamp(place + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5)), ivec2(0), last);
         const uint other = uint(there.y) * core_width + uint(there.x);
-        change = core_marks[other].owner != 0u ? max(change, abs(core_above_plane(other, plane) - above)) : change;
+        change = CORE_MARK(core_old_marks, other).owner != 0u ? max(change, abs(core_above_plane(other, plane) - above)) : change;
     }
     return change;
 }
 
 core_clipping core_clipping_at(uint pixel) {
     elvis_vec3 direction;
-    const elvis_real depth = core_samples[pixel].depth;
+    const elvis_real depth = CORE_SAMPLE_DEPTH(core_samples, pixel);
     const elvis_real reach = abs(depth) + length(core_position(pixel, depth, direction));
-    const uint flags = core_marks[pixel].flags;
+    const uint flags = CORE_MARK(core_old_marks, pixel).flags;
     const elvis_real off_surface = (flags & CORE_FLAG_VAGUE) == 0u       ? elvis_real(0)
                                    : (flags & CORE_FLAG_UNDECIDED) == 0u ? core_near.y
                                                                          : CORE_FAR;
@@ -136,7 +139,7 @@ struct core_line_here {
 };
 
 core_line_here core_line_near(uint pixel, uint kind, float reach, uint met, uint open) {
-    const uint flags = core_marks[pixel].flags;
+    const uint flags = CORE_MARK(core_old_marks, pixel).flags;
     core_line_here line = core_line_here((flags & met) != 0u, (flags & open) != 0u);
 #if CORE_HAS_WIDE_LINES
     const ivec2 size = ivec2(core_width, core_n_pixels / core_width), place = ivec2(pixel % core_width, pixel / core_width);
@@ -145,7 +148,7 @@ core_line_here core_line_near(uint pixel, uint kind, float reach, uint met, uint
     const ivec2 first = max(place - most, ivec2(0)), last = min(place + most, size - 1);
     for (int row = first.y; row <= last.y && most > 0; ++row) {
         for (int column = first.x; column <= last.x; ++column) {
-            const uint word = core_stretches[2u * (uint(row) * core_width + uint(column)) + kind];
+            const uint word = CORE_WORD(core_stretches, 2u * (uint(row) * core_width + uint(column)) + kind);
             if (word != 0u) {
                 const vec2 to_here = vec2(place - ivec2(column, row));
                 const float square = core_square_to_stretch(to_here, core_stretch_begin(word), core_stretch_end(word));
@@ -193,7 +196,7 @@ uint core_points_up_to(elvis_real value, uint n_points) {
     uint low = 0u, high = n_points;
     while (low < high) {
         const uint middle = (low + high) / 2u;
-        const bool is_below = core_rows[middle].x <= value;
+        const bool is_below = CORE_ROW(core_rows, middle).x <= value;
         low = is_below ? middle + 1u : low;
         high = is_below ? high : middle;
     }
@@ -212,8 +215,8 @@ struct core_shown {
 // The table's colour, or one of those for what has none there.
 elvis_vec4 core_table_color(inout core_shown shown, bool is_drawn) {
     const uint low = core_points_up_to(shown.value, is_drawn && !shown.is_nan && !shown.is_outside ? core_n_points : 0u);
-    const elvis_vec4 from = core_rows[low > 0u ? low - 1u : 0u];
-    const elvis_vec4 to = core_rows[min(low, core_n_points - 1u)];
+    const elvis_vec4 from = CORE_ROW(core_rows, low > 0u ? low - 1u : 0u);
+    const elvis_vec4 to = CORE_ROW(core_rows, min(low, core_n_points - 1u));
     const elvis_real extent = to.x - from.x;
     const elvis_real t = extent > elvis_real(0) ? (shown.value - from.x) / extent : elvis_real(0);
     shown.is_below = low == 0u;
@@ -227,10 +230,9 @@ elvis_vec4 core_table_color(inout core_shown shown, bool is_drawn) {
 #if CORE_IS_LIT
 elvis_vec3 core_lit_at(uint pixel, elvis_vec3 color) {
     elvis_vec3 direction;
-    const elvis_vec3 position = core_position(pixel, core_samples[pixel].depth, direction);
-    const elvis_vec3 own_normal =
-        elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
-    return core_lit(color, core_is_plane != 0u ? core_plane_normal.xyz : own_normal, position, -normalize(direction));
+    const elvis_vec3 position = core_position(pixel, CORE_SAMPLE_DEPTH(core_samples, pixel), direction);
+    const elvis_vec3 normal = core_is_plane != 0u ? core_plane_normal.xyz : CORE_REAL3(core_normals, 3u * pixel);
+    return core_lit(color, normal, position, -normalize(direction));
 }
 #endif
 
@@ -249,7 +251,7 @@ void core_note_special(core_shown shown, elvis_vec4 limits) {
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
-    const uint owner = is_inside ? core_marks[pixel].owner : 0u;
+    const uint owner = is_inside ? CORE_MARK(core_old_marks, pixel).owner : 0u;
     const bool is_drawn = owner != 0u;
     core_shown shown = core_shown(elvis_real(0), is_drawn, false, false, false, false);
 #if CORE_HAS_LINES
@@ -257,9 +259,9 @@ void main() {
     elvis_vec4 contour_color = elvis_vec4(0);
 #endif
     if (is_drawn) {
-        shown.value = core_samples[pixel].value;
-        shown.is_seen = (core_marks[pixel].flags & CORE_FLAG_CUT) == 0u;
-        shown.is_outside = core_samples[pixel].number == CORE_NO_NUMBER;
+        shown.value = CORE_SAMPLE_VALUE(core_samples, pixel);
+        shown.is_seen = (CORE_MARK(core_old_marks, pixel).flags & CORE_FLAG_CUT) == 0u;
+        shown.is_outside = CORE_SAMPLE_NUMBER(core_samples, pixel) == CORE_NO_NUMBER;
 #if CORE_HAS_LINES
         lines = core_lines_at(pixel);
 #endif
@@ -289,7 +291,7 @@ void main() {
         color.xyz = shown.is_outside ? color.xyz : core_lit_at(pixel, color.xyz);
 #endif
 #if CORE_IS_SHADED
-        color.xyz *= shown.is_outside || shown.has_no_place ? elvis_real(1) : core_shades[pixel];
+        color.xyz *= shown.is_outside || shown.has_no_place ? elvis_real(1) : CORE_REAL(core_shades, pixel);
 #endif
         core_note_special(shown, limits);
 #if CORE_HAS_LINES

@@ -6,14 +6,14 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "picture/place_error.glsl"
 #include "picture/samples.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
+layout(set = 0, binding = 0) CORE_READ_SAMPLES(core_samples);
 layout(set = 0, binding = 1, std430) buffer core_marks_block { core_mark core_marks[]; };
 // Values of the condition's field at the same points.
-layout(set = 0, binding = 2, std430) readonly buffer core_values_block { core_sample core_values[]; };
+layout(set = 0, binding = 2) CORE_READ_SAMPLES(core_values);
 // What they are compared with, and their error.
 layout(set = 0, binding = 3, std430) readonly buffer core_limit_block { elvis_real core_limit[2]; };
 // Of these values; of points that had places the flags are the picture's already.
-layout(set = 0, binding = 4, std430) readonly buffer core_value_marks_block { core_mark core_value_marks[]; };
+layout(set = 0, binding = 4) CORE_READ_MARKS(core_value_marks);
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
@@ -23,7 +23,7 @@ layout(push_constant) uniform core_parameters {
 };
 
 bool core_has_value(uint pixel) {
-    return core_marks[pixel].owner != 0u && core_samples[pixel].number != CORE_NO_NUMBER;
+    return core_marks[pixel].owner != 0u && CORE_SAMPLE_NUMBER(core_samples, pixel) != CORE_NO_NUMBER;
 }
 
 // How much the field changes from the pixel to its neighbours on the surface.
@@ -33,7 +33,7 @@ elvis_real core_change_around(uint pixel, elvis_real value) {
     for (int i = 0; i < 4; ++i) {
         const ivec2 there = clamp(place + (i < 2 ? ivec2(2 * i - 1, 0) : ivec2(0, 2 * i - 5)), ivec2(0), last);
         const uint other = uint(there.y) * core_width + uint(there.x);
-        change = core_has_value(other) ? max(change, abs(core_values[other].value - value)) : change;
+        change = core_has_value(other) ? max(change, abs(CORE_SAMPLE_VALUE(core_values, other) - value)) : change;
     }
     return change;
 }
@@ -43,14 +43,14 @@ void main() {
     if (pixel >= core_n_pixels || !core_has_value(pixel)) {
         return;
     }
-    const elvis_real value = core_values[pixel].value;
+    const elvis_real value = CORE_SAMPLE_VALUE(core_values, pixel);
     const elvis_real margin = core_is_above != 0u ? value - core_limit[0] : core_limit[0] - value;
     const bool holds = margin > elvis_real(0) || (core_takes_equal != 0u && margin == elvis_real(0));
     const bool is_undecided = abs(margin) <= core_limit[1] + CORE_PLACE_ERROR * core_change_around(pixel, value);
     // What is cut away in doubt may hide what is found behind it.
     const uint doubt = holds ? CORE_FLAG_UNDECIDED : CORE_FLAG_UNDECIDED_IN_FRONT;
     const uint flags =
-        (holds ? 0u : CORE_FLAG_CUT) | (is_undecided ? doubt : 0u) | (core_value_marks[pixel].flags & CORE_FLAG_ESTIMATED);
+        (holds ? 0u : CORE_FLAG_CUT) | (is_undecided ? doubt : 0u) | (CORE_MARK(core_value_marks, pixel).flags & CORE_FLAG_ESTIMATED);
     if (flags != 0u) {
         core_marks[pixel].flags |= flags;
     }

@@ -14,10 +14,10 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 #include "picture/lic_pixel.glsl"
 #include "picture/seen_point.glsl"
 
-layout(set = 0, binding = 1, std430) readonly buffer core_samples_block { core_sample core_samples[]; };
-layout(set = 0, binding = 2, std430) readonly buffer core_marks_block { core_mark core_marks[]; };
-layout(set = 0, binding = 3, std430) readonly buffer core_normals_block { elvis_real core_normals[]; };
-layout(set = 0, binding = 4, std430) readonly buffer core_vectors_block { elvis_real core_vectors[]; };
+layout(set = 0, binding = 1) CORE_READ_SAMPLES(core_samples);
+layout(set = 0, binding = 2) CORE_READ_MARKS(core_marks);
+layout(set = 0, binding = 3) CORE_READ_REALS(core_normals);
+layout(set = 0, binding = 4) CORE_READ_REALS(core_vectors);
 // What the vectors lack, component by component; and how far off they may be.
 layout(set = 0, binding = 5, std430) readonly buffer core_numbers_block { elvis_vec4 core_numbers; };
 layout(set = 0, binding = 6, std430) writeonly buffer core_pixels_block { core_lic_pixel core_pixels[]; };
@@ -45,15 +45,15 @@ struct core_surface_point {
 core_surface_point core_surface_point_of(ivec2 place) {
     const uint pixel = uint(place.y) * core_width + uint(place.x);
     core_surface_point point;
-    const bool is_shown = core_marks[pixel].owner != 0u && core_samples[pixel].number != CORE_NO_NUMBER;
-    const elvis_real depth = is_shown ? core_samples[pixel].depth : elvis_real(1);
+    const bool is_shown = CORE_MARK(core_marks, pixel).owner != 0u && CORE_SAMPLE_NUMBER(core_samples, pixel) != CORE_NO_NUMBER;
+    const elvis_real depth = is_shown ? CORE_SAMPLE_DEPTH(core_samples, pixel) : elvis_real(1);
     point.position = core_seen_point(elvis_vec2(place), depth, point.direction, point.t);
     point.normal = core_plane_normal.xyz;
     if (core_is_plane == 0u) {
-        point.normal = elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+        point.normal = CORE_REAL3(core_normals, 3u * pixel);
     }
     const uint at = 3u * pixel;
-    point.vector = elvis_vec3(core_vectors[at], core_vectors[at + 1u], core_vectors[at + 2u]) + core_numbers.xyz;
+    point.vector = CORE_REAL3(core_vectors, at) + core_numbers.xyz;
     point.has_vector = is_shown && core_is_finite(point.vector.x) && core_is_finite(point.vector.y) && core_is_finite(point.vector.z) &&
                        core_is_finite(point.normal.x) && core_is_finite(point.normal.y) && core_is_finite(point.normal.z);
     return point;
@@ -87,7 +87,7 @@ elvis_vec2 core_direction_in_picture(core_surface_point point) {
 
 void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
-    if (pixel >= core_n_pixels || core_marks[pixel].owner == 0u) {
+    if (pixel >= core_n_pixels || CORE_MARK(core_marks, pixel).owner == 0u) {
         return;
     }
     const ivec2 place = ivec2(pixel % core_width, pixel / core_width), size = ivec2(core_width, core_n_pixels / core_width);

@@ -6,9 +6,11 @@
 #ifndef CORE_LIGHTING
 #define CORE_LIGHTING
 
+#include "arithmetic/read_only.glsl"
+
 // ambient and number of lights; strength and exponent of highlights; then for each light its vector and kind, and its colour.
 // Places are relative to the reference point of the rays.
-layout(set = 0, binding = CORE_LIGHTS_BINDING, std430) readonly buffer core_lights_block { elvis_vec4 core_lights[]; };
+layout(set = 0, binding = CORE_LIGHTS_BINDING) CORE_READ_ROWS(core_lights);
 
 #define CORE_LIGHT_AT_EYE elvis_real(0)
 #define CORE_LIGHT_FROM_DIRECTION elvis_real(1)
@@ -21,13 +23,13 @@ elvis_vec3 core_lit(elvis_vec3 color, elvis_vec3 normal, elvis_vec3 position, el
     const bool has_normal = facing >= elvis_real(-2) && facing <= elvis_real(2) && dot(normal, normal) > elvis_real(0.5LF);
     const elvis_vec3 n = has_normal ? (facing < zero ? -normal : normal) : to_viewer;
 
-    const elvis_vec4 ambient = core_lights[0];
-    const elvis_real strength = core_lights[1].x, exponent = core_lights[1].y;
+    const elvis_vec4 ambient = CORE_ROW(core_lights, 0);
+    const elvis_real strength = CORE_ROW(core_lights, 1).x, exponent = CORE_ROW(core_lights, 1).y;
     elvis_real red = color.x * ambient.x, green = color.y * ambient.y, blue = color.z * ambient.z;
     const uint n_lights = uint(ambient.w);
     for (uint light = 0u; light < n_lights; ++light) {
-        const elvis_vec4 source = core_lights[2u + 2u * light];
-        const elvis_vec3 light_color = core_lights[3u + 2u * light].xyz;
+        const elvis_vec4 source = CORE_ROW(core_lights, 2u + 2u * light);
+        const elvis_vec3 light_color = CORE_ROW(core_lights, 3u + 2u * light).xyz;
         const elvis_vec3 from_place = source.xyz - position;
         const elvis_real distance = length(from_place);
         const elvis_vec3 to_place = distance > zero ? from_place / distance : n;

@@ -6,7 +6,7 @@ bool core_look_beyond(uint pixel, inout core_ray ray) {
     const elvis_real per_length = elvis_real(1) / sqrt(dot(ray.direction, ray.direction)), eye = ray.least_t;
     bool is_wanted = true;
     if (core_has_beyond != 0u) {
-        const elvis_real depth = core_beyond[pixel];
+        const elvis_real depth = CORE_REAL(core_beyond, pixel);
         is_wanted = depth < CORE_FAR;
         // Rounding of the depth; that of the crossings themselves is a matter of their kind.
         ray.least_t = is_wanted ? depth * per_length + eye + elvis_real(8) * CORE_ROUNDOFF * depth : eye;

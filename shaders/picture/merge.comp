@@ -6,10 +6,10 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 
 #include "picture/samples.glsl"
 
-layout(set = 0, binding = 0, std430) readonly buffer core_layer_samples_block { core_sample core_layer_samples[]; };
-layout(set = 0, binding = 1, std430) readonly buffer core_layer_marks_block { core_mark core_layer_marks[]; };
-layout(set = 0, binding = 2, std430) readonly buffer core_layer_normals_block { elvis_real core_layer_normals[]; };
-layout(set = 0, binding = 3, std430) readonly buffer core_layer_colors_block { elvis_vec4 core_layer_colors[]; };
+layout(set = 0, binding = 0) CORE_READ_SAMPLES(core_layer_samples);
+layout(set = 0, binding = 1) CORE_READ_MARKS(core_layer_marks);
+layout(set = 0, binding = 2) CORE_READ_REALS(core_layer_normals);
+layout(set = 0, binding = 3) CORE_READ_ROWS(core_layer_colors);
 layout(set = 0, binding = 4, std430) buffer core_samples_block { core_sample core_samples[]; };
 layout(set = 0, binding = 5, std430) buffer core_marks_block { core_mark core_marks[]; };
 layout(set = 0, binding = 6, std430) writeonly buffer core_normals_block { elvis_real core_normals[]; };
@@ -46,13 +46,13 @@ void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
     const uint safe = is_inside ? pixel : 0u;
-    const core_mark layer = core_layer_marks[safe];
+    const core_mark layer = CORE_MARK(core_layer_marks, safe);
     const bool is_drawn = is_inside && layer.owner != 0u;
     elvis_real depth = CORE_FAR;
     elvis_vec4 color = elvis_vec4(0);
     if (is_drawn) {
-        depth = core_layer_samples[pixel].depth;
-        color = core_layer_colors[pixel];
+        depth = CORE_SAMPLE_DEPTH(core_layer_samples, pixel);
+        color = CORE_ROW(core_layer_colors, pixel);
     }
     const bool is_seen = color.w > elvis_real(0);
     const bool is_opaque = color.w >= elvis_real(1);
@@ -66,12 +66,12 @@ void main() {
     }
     const bool is_nearest = is_seen && depth < old_depth;
     if (is_nearest) {
-        core_samples[pixel] = core_layer_samples[pixel];
+        core_samples[pixel] = CORE_SAMPLE(core_layer_samples, pixel);
     }
     if (is_nearest && core_has_normals != 0u) {
-        core_normals[3u * pixel] = core_layer_normals[3u * pixel];
-        core_normals[3u * pixel + 1u] = core_layer_normals[3u * pixel + 1u];
-        core_normals[3u * pixel + 2u] = core_layer_normals[3u * pixel + 2u];
+        core_normals[3u * pixel] = CORE_REAL(core_layer_normals, 3u * pixel);
+        core_normals[3u * pixel + 1u] = CORE_REAL(core_layer_normals, 3u * pixel + 1u);
+        core_normals[3u * pixel + 2u] = CORE_REAL(core_layer_normals, 3u * pixel + 2u);
     }
     const elvis_real opaque_depth = is_first ? CORE_FAR : core_depths[safe];
     // Through this layer, or this layer through another one.

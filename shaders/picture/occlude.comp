@@ -10,7 +10,7 @@ layout(local_size_x = CORE_GROUP_SIZE) in;
 layout(set = 0, binding = 0, std430) buffer core_layer_samples_block { core_sample core_layer_samples[]; };
 layout(set = 0, binding = 1, std430) buffer core_layer_marks_block { core_mark core_layer_marks[]; };
 // Depth of the nearest opaque surface; CORE_FAR where there is none.
-layout(set = 0, binding = 2, std430) readonly buffer core_depths_block { elvis_real core_depths[]; };
+layout(set = 0, binding = 2) CORE_READ_REALS(core_depths);
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
@@ -26,7 +26,7 @@ void main() {
     const uint pixel = gl_WorkGroupID.y * core_groups_x * CORE_GROUP_SIZE + gl_GlobalInvocationID.x;
     const bool is_inside = pixel < core_n_pixels;
     const uint safe = is_inside ? pixel : 0u;
-    const elvis_real depth = core_depths[safe];
+    const elvis_real depth = CORE_REAL(core_depths, safe);
     const uint owner = core_layer_marks[safe].owner;
     const bool is_put = core_step == 0u && is_inside && depth < CORE_FAR;
     if (is_put) {

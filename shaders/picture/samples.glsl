@@ -3,6 +3,8 @@
 #ifndef CORE_SAMPLES
 #define CORE_SAMPLES
 
+#include "arithmetic/read_only.glsl"
+
 // A depth behind everything.
 #define CORE_FAR elvis_real(3.0e38LF)
 
@@ -26,6 +28,37 @@ struct core_mark {
     // CORE_FLAG_...: the same bits as in the picture's buffers.
     uint flags;
 };
+
+// Both where they are only read (arithmetic/read_only.glsl).
+#if CORE_READS_TEXELS
+#define CORE_READ_SAMPLES(name) uniform usamplerBuffer name
+#define CORE_READ_MARKS(name) uniform usamplerBuffer name
+
+core_mark core_mark_of(uvec4 two, uint pixel) {
+    return (pixel & 1u) == 0u ? core_mark(two.x, two.y) : core_mark(two.z, two.w);
+}
+
+#define CORE_MARK(name, pixel) core_mark_of(texelFetch(name, int((pixel) >> 1u)), pixel)
+#define CORE_SAMPLE_VALUE(name, pixel) CORE_REAL(name, 3u * (pixel))
+#define CORE_SAMPLE_DEPTH(name, pixel) CORE_REAL(name, 3u * (pixel) + 1u)
+#if ELVIS_REAL_IS_DOUBLE
+#define CORE_SAMPLE_NUMBER(name, pixel) CORE_WORD(name, 6u * (pixel) + 4u)
+#else
+#define CORE_SAMPLE_NUMBER(name, pixel) CORE_WORD(name, 3u * (pixel) + 2u)
+#endif
+
+#else
+#define CORE_READ_SAMPLES(name) readonly buffer name##_block { core_sample name[]; }
+#define CORE_READ_MARKS(name) readonly buffer name##_block { core_mark name[]; }
+
+#define CORE_MARK(name, pixel) name[pixel]
+#define CORE_SAMPLE_VALUE(name, pixel) name[pixel].value
+#define CORE_SAMPLE_DEPTH(name, pixel) name[pixel].depth
+#define CORE_SAMPLE_NUMBER(name, pixel) name[pixel].number
+#endif
+
+#define CORE_SAMPLE(name, pixel) \
+    core_sample(CORE_SAMPLE_VALUE(name, pixel), CORE_SAMPLE_DEPTH(name, pixel), CORE_SAMPLE_NUMBER(name, pixel))
 
 // Rank among the elements that share the point: side first, then number.
 #define CORE_OWNER_KEY 1u

@@ -8,11 +8,13 @@
 #define CORE_SMOOTH elvis_real(0.1LF)
 
 elvis_vec3 core_shown_normal(uint pixel) {
-    return elvis_vec3(core_normals[3u * pixel], core_normals[3u * pixel + 1u], core_normals[3u * pixel + 2u]);
+    return CORE_REAL3(core_normals, 3u * pixel);
 }
 
 // Where the pixel's ray meets the surface: the parameter, and the tangent plane.
-elvis_real core_shown_t(uint pixel, core_cut_ray ray) { return core_samples[pixel].depth / length(ray.direction) - core_reference.w; }
+elvis_real core_shown_t(uint pixel, core_cut_ray ray) {
+    return CORE_SAMPLE_DEPTH(core_samples, pixel) / length(ray.direction) - core_reference.w;
+}
 
 core_tangent core_shown_tangent(uint pixel, core_cut_ray ray) {
     return core_tangent(ray.base + core_shown_t(pixel, ray) * ray.direction, core_shown_normal(pixel));
@@ -52,7 +54,7 @@ core_surroundings core_look_around(uvec2 place, uint pixel, bool is_pixel, core_
         const bool is_seen = core_marks[other].owner != 0u;
         const elvis_real right = elvis_real(there.x - int(place.x)), below = elvis_real(there.y - int(place.y));
         const elvis_vec3 ray = direction + right * core_direction_column.xyz + below * core_direction_row.xyz;
-        const elvis_real t = core_samples[other].depth / length(ray) - core_reference.w;
+        const elvis_real t = CORE_SAMPLE_DEPTH(core_samples, other) / length(ray) - core_reference.w;
         const elvis_vec3 base = own_base + right * core_base_column.xyz + below * core_base_row.xyz, to_other = base + t * ray;
         const elvis_real height = dot(tangent.normal, to_other), square = dot(to_other, to_other);
         const elvis_real expected = elvis_real(4) * core_square_to_plane(tangent, base, ray);
@@ -80,7 +82,7 @@ elvis_real core_farthest_square(core_cut_square square, elvis_vec3 point) {
 // that is room for what the surface departs from the plane; where it is not known, the surface is seen edge on, and its depth may vary by
 // half.
 bool core_may_end_near(uint pixel, core_cut_square square, core_tangent tangent) {
-    const elvis_real depth = core_samples[pixel].depth;
+    const elvis_real depth = CORE_SAMPLE_DEPTH(core_samples, pixel);
     const elvis_real reach = square.all_hit ? elvis_real(2) * sqrt(core_farthest_square(square, tangent.point)) : elvis_real(0.5LF) * depth;
     return depth - min(reach, elvis_real(0.5LF) * depth) <= core_near.x;
 }

@@ -18,7 +18,7 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 
 layout(set = 0, binding = 1, std430) buffer core_states_block { CORE_STATE core_states[]; };
 // Not read where rays are given.
-layout(set = 0, binding = 2, std430) readonly buffer core_tiles_block { uint core_tiles[]; };
+layout(set = 0, binding = 2) CORE_READ_WORDS(core_tiles);
 // Rays that look for a start, evaluations.
 layout(set = 0, binding = 3, std430) buffer core_counts_block { uint core_counts[]; };
 layout(push_constant) uniform core_parameters {
@@ -105,8 +105,8 @@ core_start_candidate core_next_node(core_ray ray, inout core_start_search search
     const uint listed = 0u;
     const bool is_behind = false;
 #else
-    const uint at = search.list + 1u + 2u * min(search.entry, search.n_entries - 1u), listed = core_tiles[at];
-    const bool is_behind = !is_popped && uintBitsToFloat(core_tiles[at + 1u]) > float(search.walk.at);
+    const uint at = search.list + 1u + 2u * min(search.entry, search.n_entries - 1u), listed = CORE_WORD(core_tiles, at);
+    const bool is_behind = !is_popped && uintBitsToFloat(CORE_WORD(core_tiles, at + 1u)) > float(search.walk.at);
 #endif
     const uint word = is_popped ? core_stack[search.stack_size - (is_popped ? 1u : 0u)] : listed;
     search.stack_size -= is_popped ? 1u : 0u;
@@ -233,7 +233,7 @@ core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 
     search.n_entries = is_mine ? 1u : 0u;
 #else
     search.list = (place.x / CORE_TILE_WIDTH + place.y / CORE_TILE_HEIGHT * core_tiles_per_row) * CORE_TILE_STRIDE;
-    search.n_entries = is_mine ? core_tiles[search.list] & ~CORE_TILE_INNER : 0u;
+    search.n_entries = is_mine ? CORE_WORD(core_tiles, search.list) & ~CORE_TILE_INNER : 0u;
 #endif
     search.entry = search.stack_size = search.work = search.n_evaluations = 0u;
     search.is_following = search.has_entered = false;

@@ -3,6 +3,7 @@
 // The kernel brings core_extent, the diagonal of the volume's bounds, and for rays that are given their binding, CORE_RAYS_BINDING.
 
 #include "arithmetic/precision.glsl"
+#include "arithmetic/read_only.glsl"
 #include "tiles/hierarchy.glsl"
 
 #if CORE_RAYS_ARE_GIVEN
@@ -12,7 +13,7 @@ layout(set = 0, binding = 0, std140) uniform core_frame_block {
     elvis_vec4 core_centre;
 };
 // Relative to the hierarchies' origin; (origin, from), (direction, to) for each ray.
-layout(set = 0, binding = CORE_RAYS_BINDING, std430) readonly buffer core_rays_block { elvis_vec4 core_rays[]; };
+layout(set = 0, binding = CORE_RAYS_BINDING) CORE_READ_ROWS(core_rays);
 #define CORE_CENTRE core_centre.xyz
 #else
 #include "picture/view.glsl"
@@ -23,10 +24,10 @@ layout(set = 0, binding = CORE_RAYS_BINDING, std430) readonly buffer core_rays_b
 // `index`: row * core_size.x + column.
 core_ray core_source_ray(uint column, uint row, uint index) {
 #if CORE_RAYS_ARE_GIVEN
-    const elvis_vec4 first = core_rays[2u * index];
+    const elvis_vec4 first = CORE_ROW(core_rays, 2u * index);
     core_ray ray;
     ray.origin = first.xyz;
-    ray.direction = core_rays[2u * index + 1u].xyz;
+    ray.direction = CORE_ROW(core_rays, 2u * index + 1u).xyz;
     ray.least_t = ray.counts_from = first.w;
     ray.widths_behind = elvis_real(0);
     ray.box_origin = vec3(ray.origin);
@@ -43,7 +44,7 @@ core_ray core_source_ray(uint column, uint row, uint index) {
 // Where the ray ends.
 elvis_real core_source_ray_end(uint index) {
 #if CORE_RAYS_ARE_GIVEN
-    return core_rays[2u * index + 1u].w;
+    return CORE_ROW(core_rays, 2u * index + 1u).w;
 #else
     return CORE_FAR;
 #endif

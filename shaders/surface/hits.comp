@@ -11,6 +11,7 @@
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
+#include "arithmetic/read_only.glsl"
 #include "picture/view.glsl"
 #include "surface/hit.glsl"
 #include "surface/hit_record.glsl"
@@ -26,7 +27,7 @@ layout(set = 0, binding = 6, std430) buffer core_marks_block { core_mark core_ma
 // [0]: crossings found.
 layout(set = 0, binding = 7, std430) buffer core_counts_block { uint core_counts[]; };
 // A depth for each pixel, if core_has_beyond; infinite where nothing more is wanted.
-layout(set = 0, binding = 8, std430) readonly buffer core_beyond_block { elvis_real core_beyond[]; };
+layout(set = 0, binding = 8) CORE_READ_REALS(core_beyond);
 // Surfaces whose parts have values of their own bring core_hit_value and core_hit_number, of the crossing found last: then it is all that
 // is to be known of the pixel.
 #ifdef CORE_HAS_OWN_VALUES
@@ -56,7 +57,7 @@ uint core_next_row(uint column, uint row, uint end_row) {
     while (is_done && row < end_row) {
         const uint pixel = row * core_size.x + column;
         const bool is_found = core_marks[pixel].owner >> CORE_OWNER_BITS == core_surface_number;
-        is_done = core_round > 0u ? core_hits[pixel].t >= CORE_FAR || is_found : core_beyond[pixel] >= CORE_FAR;
+        is_done = core_round > 0u ? core_hits[pixel].t >= CORE_FAR || is_found : CORE_REAL(core_beyond, pixel) >= CORE_FAR;
         if (is_done) {
             core_hits[pixel].t = CORE_FAR;
         }
@@ -76,7 +77,7 @@ elvis_real core_after(uint pixel, elvis_real stretch, elvis_real reference_dista
     }
     if (core_round == 0u && core_has_beyond != 0u) {
         // To depth and back: rounding of depth itself.
-        const elvis_real beyond = core_beyond[pixel];
+        const elvis_real beyond = CORE_REAL(core_beyond, pixel);
         after = (beyond + elvis_real(4) * CORE_ROUNDOFF * abs(beyond)) / stretch - reference_distance;
     }
     return after;

@@ -3,13 +3,14 @@
 
 layout(local_size_x = CORE_TILE_WIDTH) in;
 
+#include "arithmetic/read_only.glsl"
 #include "tiles/ray_group.glsl"
 #include "volume/volume_state.glsl"
 
 layout(set = 0, binding = 0, std430) buffer core_states_block { core_volume_state core_states[]; };
 // For each tile: 0 if there is nothing in which its rays can start (tiles/ray_tiles.comp).
-layout(set = 0, binding = 1, std430) readonly buffer core_has_starts_block { uint core_has_starts[]; };
-layout(set = 0, binding = 2, std430) readonly buffer core_groups_block { uint core_groups[]; };
+layout(set = 0, binding = 1) CORE_READ_WORDS(core_has_starts);
+layout(set = 0, binding = 2) CORE_READ_WORDS(core_groups);
 // Groups with rays that have something to do; with rays that have not ended.
 layout(set = 0, binding = 3, std430) writeonly buffer core_live_block { uint core_live[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer core_open_block { uint core_open[]; };
@@ -38,11 +39,11 @@ void main() {
     }
     barrier();
     for (uint i = first; i < end; ++i) {
-        const uvec2 place = core_pixel_in_group(core_groups[i], lane, core_size.x);
+        const uvec2 place = core_pixel_in_group(CORE_WORD(core_groups, i), lane, core_size.x);
         const bool is_pixel = place.x < core_size.x && place.y < core_size.y;
         const uint pixel = is_pixel ? place.y * core_size.x + place.x : 0u;
         const uint tile = place.y / CORE_TILE_HEIGHT * tiles_a_row + place.x / CORE_TILE_WIDTH;
-        const bool has_starts = is_pixel && core_has_starts[tile] != 0u;
+        const bool has_starts = is_pixel && CORE_WORD(core_has_starts, tile) != 0u;
         const uint status = core_states[pixel].walk.status, global_element = core_states[pixel].walk.global_element;
         const bool has_sought = status == CORE_RAY_HAS_SOUGHT;
         const bool ends = core_seeks != 0u ? status == CORE_RAY_SEEKS && !has_starts : has_sought && global_element == CORE_NO_ELEMENT;
@@ -62,7 +63,7 @@ void main() {
     }
     barrier();
     for (uint i = lane; first + i < end; i += CORE_TILE_WIDTH) {
-        const uint group = core_groups[first + i];
+        const uint group = CORE_WORD(core_groups, first + i);
         if (core_is_live[i] != 0u) {
             core_live[atomicAdd(core_counts[0], 1u)] = group;
         }

@@ -12,8 +12,9 @@ struct core_transfer_piece {
 };
 
 core_transfer_piece core_fetch_piece(uint index) {
-    const elvis_vec4 first = core_pieces[3u * index];
-    return core_transfer_piece(first.x, first.y, first.z, first.w, core_pieces[3u * index + 1u].xyz, core_pieces[3u * index + 2u].xyz);
+    const elvis_vec4 first = CORE_ROW(core_pieces, 3u * index);
+    return core_transfer_piece(first.x, first.y, first.z, first.w, CORE_ROW(core_pieces, 3u * index + 1u).xyz,
+                               CORE_ROW(core_pieces, 3u * index + 2u).xyz);
 }
 
 // Of the piece that holds the value.
@@ -21,7 +22,7 @@ uint core_piece_index(elvis_real value) {
     uint first = 0u, last = core_n_breakpoints;
     while (first < last) {
         const uint middle = (first + last) / 2u;
-        const bool is_below = core_breakpoints[middle] <= value;
+        const bool is_below = CORE_REAL(core_breakpoints, middle) <= value;
         first = is_below ? middle + 1u : first;
         last = is_below ? last : middle;
         if (first >= last) {
@@ -41,7 +42,8 @@ struct core_held_piece {
 };
 
 core_held_piece core_load_piece(uint index) {
-    const elvis_vec4 first = core_pieces[3u * index], color = core_pieces[3u * index + 1u], slope = core_pieces[3u * index + 2u];
+    const elvis_vec4 first = CORE_ROW(core_pieces, 3u * index);
+    const elvis_vec4 color = CORE_ROW(core_pieces, 3u * index + 1u), slope = CORE_ROW(core_pieces, 3u * index + 2u);
     core_held_piece held;
     held.index = index;
     held.lower = color.w;

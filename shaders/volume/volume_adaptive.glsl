@@ -87,8 +87,8 @@ elvis_real core_hidden_error(core_optics_sample first, core_optics_sample second
     bool is_more = true;
     while (is_more && n < CORE_MOST_PIECES_BETWEEN) {
         const core_transfer_piece piece = core_fetch_piece(index + n);
-        is_more = index + n < core_n_breakpoints && core_breakpoints[index + n] < high;
-        const elvis_real end = is_more ? core_breakpoints[index + n] : high;
+        is_more = index + n < core_n_breakpoints && CORE_REAL(core_breakpoints, index + n) < high;
+        const elvis_real end = is_more ? CORE_REAL(core_breakpoints, index + n) : high;
         largest = max(largest, max(core_deviation(piece, start, first, second), core_deviation(piece, end, first, second)));
         steepest = max(steepest, piece.steepness);
         start = end;

@@ -112,8 +112,9 @@ core_categories core_categorize(elvis_real low, elvis_real high) {
     bool has_density = piece.density != elvis_real(0) || piece.density_slope != elvis_real(0);
     bool has_color = !core_is_zero(piece.color) || !core_is_zero(piece.color_slope);
     bool is_density_smooth = true, is_color_smooth = true;
-    while (index < core_n_breakpoints && core_breakpoints[index] < high && (is_density_smooth || is_color_smooth || !has_color)) {
-        const elvis_real at = core_breakpoints[index], width = at - piece.from;
+    while (index < core_n_breakpoints && CORE_REAL(core_breakpoints, index) < high &&
+           (is_density_smooth || is_color_smooth || !has_color)) {
+        const elvis_real at = CORE_REAL(core_breakpoints, index), width = at - piece.from;
         const core_transfer_piece above = core_fetch_piece(index + 1u);
         const elvis_vec3 color = core_color_at(piece, at);
         is_density_smooth = is_density_smooth && core_continues_smoothly(piece.density + piece.density_slope * width, piece.density_slope,

@@ -14,10 +14,10 @@ layout(local_size_x = CORE_TILE_WIDTH) in;
 
 layout(set = 0, binding = 1, std430) buffer core_states_block { core_volume_state core_states[]; };
 // Depth of what hides the volume, CORE_FAR where nothing does; only with core_has_depths. Depth where the ray is to wait, likewise.
-layout(set = 0, binding = 2, std430) readonly buffer core_depths_block { elvis_real core_depths[]; };
-layout(set = 0, binding = 6, std430) readonly buffer core_stops_block { elvis_real core_stops[]; };
-layout(set = 0, binding = 3, std430) readonly buffer core_breakpoints_block { elvis_real core_breakpoints[]; };
-layout(set = 0, binding = 4, std430) readonly buffer core_pieces_block { elvis_vec4 core_pieces[]; };
+layout(set = 0, binding = 2) CORE_READ_REALS(core_depths);
+layout(set = 0, binding = 6) CORE_READ_REALS(core_stops);
+layout(set = 0, binding = 3) CORE_READ_REALS(core_breakpoints);
+layout(set = 0, binding = 4) CORE_READ_ROWS(core_pieces);
 // Rays that this dispatch has moved, evaluations of mapping and field, of the mapping alone, segments, empty segments, steps,
 // breakpoints, Newton failures.
 layout(set = 0, binding = 5, std430) buffer core_counts_block { uint core_counts[]; };
@@ -73,10 +73,10 @@ struct core_ray_stop {
 core_ray_stop core_stop_of(uint pixel, elvis_real speed, elvis_real reference_distance) {
     elvis_real end = CORE_FAR, wait = CORE_FAR;
     if (core_has_depths != 0u) {
-        end = core_depths[pixel] / speed - reference_distance;
+        end = CORE_REAL(core_depths, pixel) / speed - reference_distance;
     }
     if (core_has_stops != 0u) {
-        wait = core_stops[pixel] / speed - reference_distance;
+        wait = CORE_REAL(core_stops, pixel) / speed - reference_distance;
     }
     return core_ray_stop(min(end, wait), wait < end ? CORE_RAY_WAITS : CORE_RAY_ENDS);
 }

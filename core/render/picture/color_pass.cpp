@@ -71,7 +71,7 @@ KernelRequest color_kernel(Precision precision, const Surface& surface, bool is_
                               : has_lines ? "_with_lines"
                                           : "") +
                              (is_clipped ? "_clipped" : "") + (is_shaded ? "_shaded" : "");
-    const BufferCounts buffers{.uniform = 1, .storage = (is_lit ? 7u : 5u) + (is_shaded ? 1u : 0u) + (is_wide ? 1u : 0u)};
+    const BufferCounts buffers{.uniform = 1, .storage = (is_lit ? 8u : 6u) + (is_shaded ? 1u : 0u) + (is_wide ? 1u : 0u)};
     KernelRequest request = pixel_kernel(name, precision, buffers, sizeof(ColorParameters));
     request.kernel = "picture/color.comp";
     request.defines.emplace_back("CORE_IS_LIT", is_lit ? "1" : "0");
@@ -166,7 +166,8 @@ void ColorPass::draw(const Layer& layer, const Surface& surface, std::size_t ind
                                      half_width(mesh),
                                      traits_of(surface.geometry).plane != nullptr ? 1u : 0u};
     const std::span<const std::byte> push_constants = std::as_bytes(std::span(&parameters, 1));
-    std::vector<const Buffer*> bindings = {&m_frame, &layer.samples, &rows, &layer.colors, &layer.marks, m_special.get()};
+    std::vector<const Buffer*> bindings = {&m_frame,     &layer.samples,  &rows,       &layer.colors,
+                                           &layer.marks, m_special.get(), &layer.marks};
     std::optional<Buffer> lights;
     if (lighting) {
         const std::array<double, 4>& reference = view.rows[6];

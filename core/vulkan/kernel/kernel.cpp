@@ -152,8 +152,10 @@ void Kernel::Impl::check_bindings(std::span<const BoundBuffer> bindings) const {
     const VkPhysicalDeviceLimits& limits = device.limits();
     for (const BindingLayout& binding : layout) {
         const Buffer* const buffer = bound_at(bindings, binding.binding).buffer;
-        const std::uint64_t limit =
-            binding.type == BindingType::uniform_buffer ? limits.maxUniformBufferRange : limits.maxStorageBufferRange;
+        const std::uint64_t limit = binding.type == BindingType::uniform_buffer ? limits.maxUniformBufferRange
+                                    : binding.type == BindingType::texel_buffer
+                                        ? std::uint64_t{limits.maxTexelBufferElements} * 16
+                                        : limits.maxStorageBufferRange;
         if (buffer != nullptr && buffer->bytes() > limit) {
             throw Error(place, "a buffer of " + std::to_string(buffer->bytes()) + " bytes at binding " +
                                    std::to_string(binding.binding) + ", the device binds at most " + std::to_string(limit));
@@ -176,6 +178,7 @@ VkDescriptorSet Kernel::Impl::bound(std::span<const BoundBuffer> bindings) {
             views[i] = bound.records->part_view(bound.part);
         } else {
             buffers[i] = {bound.buffer->handle(), 0, VK_WHOLE_SIZE};
+            views[i] = binding.type == BindingType::texel_buffer ? bound.buffer->texels() : VK_NULL_HANDLE;
         }
         writes[i] = {};
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
