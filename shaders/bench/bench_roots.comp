@@ -4,11 +4,12 @@
 
 elvis_real core_listed_value(uint i) { return elvis_real(0); }
 
+#include "arithmetic/read_only.glsl"
 #include "segments/polynomial.glsl"
 #include "segments/colleague.glsl"
 
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0, std430) readonly buffer core_input_block { elvis_real core_input[]; };
+layout(set = 0, binding = 0) CORE_READ_REALS(core_input);
 layout(set = 0, binding = 1, std430) writeonly buffer core_output_block { elvis_real core_output[]; };
 layout(push_constant) uniform core_parameters { uint core_n_polynomials; };
 
@@ -19,7 +20,7 @@ void main() {
     }
     core_polynomial chebyshev;
     for (int k = 0; k < CORE_FIT_SIZE; ++k) {
-        chebyshev.c[k] = core_input[at * CORE_FIT_SIZE + k];
+        chebyshev.c[k] = CORE_REAL(core_input, at * CORE_FIT_SIZE + uint(k));
     }
     elvis_real root_t = elvis_real(2), touch_from = elvis_real(2), touch_to = elvis_real(0);
 #if CORE_COLLEAGUE

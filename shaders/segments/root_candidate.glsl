@@ -19,7 +19,7 @@ core_root_candidate core_next_root_candidate(core_fit fit, core_polynomial berns
     for (uint i = 0u; i < n_solves; ++i) {
         const uint index = first + i % n;
         const elvis_real shift = i < n ? elvis_real(0) : i < 2u * n ? -error : error;
-        const core_colleague_root root = core_first_root_by_colleague(fit.chebyshev, core_isovalues[index] + shift, error);
+        const core_colleague_root root = core_first_root_by_colleague(fit.chebyshev, CORE_REAL(core_isovalues, index) + shift, error);
         has_failed = has_failed || root.has_failed;
         const bool is_first = root.t < candidate.t;
         candidate.kind = is_first ? (i < n ? CORE_CROSSING_PROBABLE : CORE_CROSSING_TOUCH) : candidate.kind;
