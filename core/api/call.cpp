@@ -1,7 +1,7 @@
 #include "call.hpp"
 
 #include <core/base/counted.hpp>
-#include <core/vulkan/memory_limit.hpp>
+#include <core/vulkan/memory/memory_limit.hpp>
 
 #include <cstdlib>
 

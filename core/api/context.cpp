@@ -3,7 +3,7 @@
 #include <core/base/log.hpp>
 #include <core/plugin_host/unknown_file.hpp>
 #include <core/vulkan/device_choice.hpp>
-#include <core/vulkan/memory_limit.hpp>
+#include <core/vulkan/memory/memory_limit.hpp>
 
 #include <iterator>
 

@@ -13,7 +13,7 @@
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
 #include <core/session/supersampled.hpp>
-#include <core/vulkan/memory_limit.hpp>
+#include <core/vulkan/memory/memory_limit.hpp>
 
 #include <algorithm>
 #include <chrono>

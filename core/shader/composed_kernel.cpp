@@ -5,7 +5,7 @@
 #include <core/shader/compiler.hpp>
 #include <core/shader/request_records.hpp>
 #include <core/shader/texel_bindings.hpp>
-#include <core/vulkan/memory_limit.hpp>
+#include <core/vulkan/memory/memory_limit.hpp>
 
 #include <cassert>
 #include <chrono>

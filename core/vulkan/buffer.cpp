@@ -1,7 +1,7 @@
 #include <core/vulkan/buffer.hpp>
 
-#include <core/vulkan/allocation.hpp>
-#include <core/vulkan/buffer_view.hpp>
+#include <core/vulkan/memory/allocation.hpp>
+#include <core/vulkan/memory/buffer_view.hpp>
 
 #include <cassert>
 #include <cstring>

@@ -1,8 +1,8 @@
 #include <core/base/error.hpp>
-#include <core/vulkan/allocation.hpp>
 #include <core/vulkan/buffer.hpp>
-#include <core/vulkan/buffer_view.hpp>
 #include <core/vulkan/device_impl.hpp>
+#include <core/vulkan/memory/allocation.hpp>
+#include <core/vulkan/memory/buffer_view.hpp>
 
 #include <algorithm>
 #include <cassert>

@@ -7,7 +7,7 @@
 #include <core/vulkan/device_impl.hpp>
 #include <core/vulkan/kernel/descriptor_sets.hpp>
 #include <core/vulkan/kernel/dispatch_pace.hpp>
-#include <core/vulkan/memory_limit.hpp>
+#include <core/vulkan/memory/memory_limit.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,10 +1,10 @@
-#include <core/vulkan/allocation.hpp>
+#include <core/vulkan/memory/allocation.hpp>
 
 #include <core/base/error.hpp>
 #include <core/base/memory.hpp>
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
-#include <core/vulkan/memory_limit.hpp>
+#include <core/vulkan/memory/memory_limit.hpp>
 
 #include <algorithm>
 #include <cassert>

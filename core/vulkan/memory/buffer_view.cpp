@@ -1,4 +1,4 @@
-#include <core/vulkan/buffer_view.hpp>
+#include <core/vulkan/memory/buffer_view.hpp>
 
 #include <core/vulkan/check.hpp>
 #include <core/vulkan/device_impl.hpp>
