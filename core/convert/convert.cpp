@@ -207,6 +207,9 @@ native::Description Conversion::describe() const {
         description.notes.emplace_back(
             m_source.paths().size() == 1 ? "source file" : "source file " + std::to_string(description.notes.size() + 1), path);
     }
+    if (m_source.n_parts() > 0) {
+        description.notes.emplace_back("parts", std::to_string(m_source.n_parts()) + ", those of the solver's processes");
+    }
     description.notes.emplace_back("converter", m_source.plugin().id());
     description.notes.emplace_back("converter version", m_source.plugin().version());
     description.notes.emplace_back("written by", "ElVis " + m_options.program_version);

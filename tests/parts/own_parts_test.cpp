@@ -78,6 +78,7 @@ TEST_CASE("Parts of MFEM and of Nek5000 are kept") {
     INFO(cubes.err);
     REQUIRE(cubes.status == 0);
     CHECK(parts_of(folder.path("cubes.h5")) == std::vector<std::uint32_t>{0, 1});
+    CHECK(folder.run("info cubes.h5").out.find("parts: 2, those of the solver's processes") != std::string::npos);
     const Outcome nek = folder.run("convert '" + data_file("nek5000/m22io_test0.f00001") + "' -o nek.h5");
     INFO(nek.err);
     REQUIRE(nek.status == 0);
@@ -92,6 +93,7 @@ TEST_CASE("A volume in one piece has no parts of its own") {
     folder.write("mesh.mesh", cube_at(0));
     REQUIRE(folder.run("convert mesh.mesh -o cube.h5").status == 0);
     CHECK(parts_of(folder.path("cube.h5")).empty());
+    CHECK(folder.run("info cube.h5").out.find("parts:") == std::string::npos);
     const Outcome outcome = folder.run("render cube.h5 --parts own -o cube.png");
     CHECK(outcome.status == 1);
     CHECK(outcome.err.find("cube.h5: has no partition of its own") != std::string::npos);
