@@ -19,6 +19,10 @@ class BrowserTest(BrowserCase):
         page.wait(SETTLED)
         self.assertIn("pixel-exact", page.run("return document.getElementById('mark').textContent"))
         self.shot("loaded.png")
+        # What the line below says, however long, leaves the picture as large as it is.
+        heights = page.run("""const told = document.getElementById('activity'), before = elvis.picture.view.clientHeight;
+            told.textContent = 'drawing '.repeat(200); const long = elvis.picture.view.clientHeight; told.textContent = ''; return [before, long];""")
+        self.assertEqual(heights[1], heights[0])
 
         camera = "(JSON.stringify(elvis.frame().revision))"
         before = page.run(f"return {camera}")
