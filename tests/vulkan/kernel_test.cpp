@@ -46,9 +46,9 @@ struct Axpy {
         a.write_items<float>(numbers);
         b.write_items<float>(numbers);
     }
-    void run(float scale) const {
+    void run(float scale, std::uint32_t n_groups = 8) const {
         const std::array<BoundBuffer, 3> bound{BoundBuffer{2, &result}, {0, &a}, {1, &b}};
-        kernel.dispatch(bound, std::as_bytes(std::span(&scale, 1)), 8);
+        kernel.dispatch(bound, std::as_bytes(std::span(&scale, 1)), n_groups);
     }
     Buffer a, b, result;
     Kernel kernel;
@@ -226,8 +226,9 @@ TEST_CASE("A small dispatch is handed over once, and waited for once") {
     test.run(1);
     const DeviceWork before = device.work();
     constexpr int n = 500;
+    // One work group: more are handed over in parts where a busy machine has been slow.
     for (int i = 0; i < n; ++i) {
-        test.run(1);
+        test.run(1, 1);
     }
     const DeviceWork after = device.work();
     CHECK(after.submissions - before.submissions <= n);
