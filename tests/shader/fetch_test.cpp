@@ -17,14 +17,6 @@ layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) buffer output_block { uvec2 result[]; };
 layout(push_constant) uniform push_block { uint n_records; uint record_size; };
 
-uvec2 bits(elvis_real x) {
-#if ELVIS_REAL_IS_DOUBLE
-    return unpackDouble2x32(x);
-#else
-    return uvec2(floatBitsToUint(x), 0u);
-#endif
-}
-
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= n_records * record_size) {
@@ -72,7 +64,8 @@ void check_fetch(DataBuffers buffers, Precision precision, std::uint64_t max_bin
     KernelRequest request;
     request.name = "fetch test";
     request.kernel = "read_all";
-    request.kernel_text = read_all;
+    request.kernel_text = test::bits_glsl;
+    request.kernel_text += read_all;
     request.precision = precision;
     request.buffers = {{"reals", &reals}, {"uints", &uints}};
     request.bindings = {{0, BindingType::storage_buffer}};

@@ -27,6 +27,17 @@ private:
     TemporaryFolder m_folder;
 };
 
+/** GLSL: all bits of a number. */
+inline constexpr const char* bits_glsl = R"(
+uvec2 bits(elvis_real x) {
+#if ELVIS_REAL_IS_DOUBLE
+    return unpackDouble2x32(x);
+#else
+    return uvec2(floatBitsToUint(x), 0u);
+#endif
+}
+)";
+
 /** The smallest complete snippet: a box scaled by two about each axis, field x + component. */
 inline Snippet simple_snippet() {
     return {0,

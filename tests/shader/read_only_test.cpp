@@ -24,14 +24,6 @@ layout(set = 0, binding = 4) CORE_READ_MARKS(core_marks);
 layout(std430, set = 0, binding = 5) buffer output_block { uvec2 result[]; };
 layout(push_constant) uniform push_block { uint n_items; };
 
-uvec2 bits(elvis_real x) {
-#if ELVIS_REAL_IS_DOUBLE
-    return unpackDouble2x32(x);
-#else
-    return uvec2(floatBitsToUint(x), 0u);
-#endif
-}
-
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= n_items) {
@@ -93,7 +85,8 @@ void check_reading(DataBuffers buffers, Precision precision) {
     KernelRequest request;
     request.name = "reading test";
     request.kernel = "read_all";
-    request.kernel_text = read_all;
+    request.kernel_text = test::bits_glsl;
+    request.kernel_text += read_all;
     request.precision = precision;
     request.bindings = buffer_bindings({.storage = 6});
     request.push_constant_bytes = sizeof n;

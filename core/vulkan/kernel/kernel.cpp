@@ -79,6 +79,18 @@ DispatchPart next_part(const Groups& all, std::uint64_t done, std::uint64_t n_wa
     return part;
 }
 
+std::uint64_t most_bytes(const VkPhysicalDeviceLimits& limits, BindingType type) {
+    constexpr std::uint64_t texel_bytes = 16;
+    switch (type) {
+    case BindingType::uniform_buffer:
+        return limits.maxUniformBufferRange;
+    case BindingType::texel_buffer:
+        return texel_bytes * limits.maxTexelBufferElements;
+    default:
+        return limits.maxStorageBufferRange;
+    }
+}
+
 const BoundBuffer& bound_at(std::span<const BoundBuffer> bindings, std::uint32_t binding) {
     const auto found = std::ranges::find(bindings, binding, &BoundBuffer::binding);
     assert(found != bindings.end() && (found->buffer != nullptr) != (found->records != nullptr));
@@ -152,10 +164,7 @@ void Kernel::Impl::check_bindings(std::span<const BoundBuffer> bindings) const {
     const VkPhysicalDeviceLimits& limits = device.limits();
     for (const BindingLayout& binding : layout) {
         const Buffer* const buffer = bound_at(bindings, binding.binding).buffer;
-        const std::uint64_t limit = binding.type == BindingType::uniform_buffer ? limits.maxUniformBufferRange
-                                    : binding.type == BindingType::texel_buffer
-                                        ? std::uint64_t{limits.maxTexelBufferElements} * 16
-                                        : limits.maxStorageBufferRange;
+        const std::uint64_t limit = most_bytes(limits, binding.type);
         if (buffer != nullptr && buffer->bytes() > limit) {
             throw Error(place, "a buffer of " + std::to_string(buffer->bytes()) + " bytes at binding " +
                                    std::to_string(binding.binding) + ", the device binds at most " + std::to_string(limit));
