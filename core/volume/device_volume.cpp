@@ -356,6 +356,7 @@ void DeviceVolume::add_field(KernelRequest& request, std::uint32_t element_class
     };
     if (with_bounds) {
         std::ranges::for_each(curvature_records(element_class).buffers(), add_once);
+        std::ranges::for_each(curvature_records(element_class).forms(), add_once);
     }
     if (m_is_own_boundary) {
         request.text = "#include \"field/own_boundary.glsl\"\n";

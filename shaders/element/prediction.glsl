@@ -18,14 +18,19 @@ elvis_real core_prediction_error(elvis_real curvature, elvis_real step) {
     return curvature * d * d;
 }
 
-// The same for any solution no farther than `farthest` from where the step began. There may be others than the near one: d <= step + C d^2
-// holds from the second root on, too.
-elvis_real core_prediction_error_within(elvis_real curvature, elvis_real step, elvis_real farthest) {
+// Bound of d for any solution no farther than `farthest` from where the step began. There may be others than the near one:
+// d <= step + C d^2 holds from the second root on, too.
+elvis_real core_prediction_distance_within(elvis_real curvature, elvis_real step, elvis_real farthest) {
     const elvis_real discriminant = elvis_real(1) - elvis_real(4) * curvature * step;
     // The roots are 2 step over this, and this over 2 C.
     const elvis_real root_sum = elvis_real(1) + sqrt(max(discriminant, elvis_real(0)));
     const bool is_near = discriminant > elvis_real(0) && root_sum > elvis_real(2) * curvature * farthest;
-    const elvis_real d = is_near ? min(elvis_real(2) * step / root_sum, farthest) : farthest;
+    return is_near ? min(elvis_real(2) * step / root_sum, farthest) : farthest;
+}
+
+// Of that, as core_prediction_error.
+elvis_real core_prediction_error_within(elvis_real curvature, elvis_real step, elvis_real farthest) {
+    const elvis_real d = core_prediction_distance_within(curvature, step, farthest);
     return curvature * d * d;
 }
 

@@ -31,7 +31,7 @@ struct core_interval_search {
     elvis_real x, y, z;
     // Of the mapping in the octant.
     elvis_real curvature;
-    // Of an octant that is bent so much that a prediction may be another point's; else CORE_NO_CODE.
+    // Of an octant in which a prediction may be another point's, or where that is asked of forms; else CORE_NO_CODE.
     uint bent_code;
     // Bound of the field's second derivatives, from the last interval that was long enough for it.
     elvis_real bend;
@@ -62,6 +62,8 @@ struct core_evaluation {
     core_linear_root candidate;
     // Bound of the field's second derivatives along curves that are straight in the world: the mapping's own bending counts, too.
     elvis_real bend;
+    // By this much at most the field's slope along the ray differs from the interval's slope.
+    elvis_real turn;
     bool is_finite;
 #if ELVIS_HAS_INSIDE
     core_inside own;
@@ -76,13 +78,37 @@ struct core_evaluation {
 #define CORE_WIDE_ENOUGH (elvis_real(8) * CORE_NARROW)
 #endif
 
-// How far from xi points of the octant are at most; 0 where that need not be asked, because a second solution of a prediction lies outside
-// (isosurface/octant_mapping.glsl).
-elvis_real core_farthest_of(core_interval_search search, elvis_vec3 xi) {
-    const bool is_bent = search.bent_code != CORE_NO_CODE;
-    const uint code = is_bent ? search.bent_code : 0u;
-    const elvis_real away = core_max_norm(elvis_vec3(core_octant_middle(code)) - xi);
-    return is_bent ? min(away + elvis_real(core_octant_half_side(code)), elvis_real(2)) : elvis_real(0);
+// A second solution of a prediction need not lie outside of the octant (isosurface/octant_mapping.glsl): how far the octant's points are
+// from xi counts.
+core_interval_bend core_interval_bend_at(const core_interval_search search, uint element, elvis_vec3 xi, const core_frame frame) {
+    const bool is_asked = search.bent_code != CORE_NO_CODE;
+    const uint code = is_asked ? search.bent_code : 0u;
+    const elvis_vec3 to_middle = elvis_vec3(core_octant_middle(code)) - xi;
+    const elvis_real half_side = elvis_real(core_octant_half_side(code));
+    core_interval_bend bend;
+    bend.curvature = search.curvature;
+    bend.farthest = is_asked ? min(core_max_norm(to_middle) + half_side, elvis_real(2)) : elvis_real(0);
+#if CORE_HAS_BEND_FORMS
+    bend.local = core_local_bend_at(element, frame);
+    bend.farthest_length = core_bend_length(bend.local, to_middle) + half_side * core_bend_length_of_cube(bend.local);
+#endif
+    return bend;
+}
+
+// How much the field's slope along the ray changes within the interval's radius.
+elvis_real core_turn_of(const core_evaluation evaluation, const core_interval_bend bend, elvis_real field_bend) {
+    const core_ray_interval interval = evaluation.interval;
+    elvis_real turn = evaluation.speed * evaluation.bend * interval.radius;
+#if CORE_HAS_BEND_FORMS
+    // With d(s) and its derivative d', N(d') <= N(w) + 2 C N(d) N(d'), and d' differs from w by J^-1 D^2x(d, d').
+    const elvis_real room = elvis_real(1) - elvis_real(2) * bend.local.curvature * interval.bend_length;
+    const elvis_real product = interval.bend_length * core_bend_length(bend.local, interval.w) / room;
+    const elvis_real distance = sqrt(elvis_real(2) * product);
+    const elvis_real by_forms = field_bend * interval.radius * (evaluation.speed + core_bend_error(bend.local, distance)) +
+                                core_bend_value_error(bend.local, core_to_world(evaluation.frame, evaluation.slope), distance);
+    turn = bend.local.is_known && room > elvis_real(0) ? min(turn, by_forms) : turn;
+#endif
+    return turn;
 }
 
 core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search search) {
@@ -101,15 +127,16 @@ core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search 
     evaluation.shortest = search.shortest / evaluation.speed;
     evaluation.half_width = elvis_real(0.5LF) * (search.to - search.from);
     evaluation.reach = max(max(evaluation.half_width, evaluation.shortest), search.wide);
+    const core_interval_bend bend = core_interval_bend_at(search, evaluation.element, evaluation.xi, evaluation.frame);
     evaluation.interval = core_interval_in_element(evaluation.xi, evaluation.frame, ((shift - position) + ray.origin) + step, ray.direction,
-                                                   evaluation.reach, search.curvature, core_farthest_of(search, evaluation.xi));
+                                                   evaluation.reach, bend);
 #if ELVIS_HAS_INSIDE
     evaluation.own = core_inside_at(evaluation.element, evaluation.xi);
     core_cut_interval_inside(evaluation.own, evaluation.interval);
 #endif
     core_model model;
     elvis_real value;
-    core_interval_take_field(evaluation.interval, evaluation.element, evaluation.xi, evaluation.frame, model, value);
+    core_interval_take_field(evaluation.interval, evaluation.element, evaluation.xi, evaluation.frame, bend, model, value);
     evaluation.slope = model.slope;
     evaluation.candidate = core_first_linear_root(evaluation.interval);
     const elvis_real radius = evaluation.interval.radius;
@@ -117,6 +144,7 @@ core_evaluation core_evaluate_at(const core_ray ray, inout core_interval_search 
                   : radius > CORE_WIDE_ENOUGH                     ? elvis_real(2) * model.remainder / (radius * radius)
                                                                   : search.bend;
     evaluation.bend = search.bend + elvis_real(2) * search.curvature * core_model_norm1(model.slope);
+    evaluation.turn = core_turn_of(evaluation, bend, search.bend);
     evaluation.is_finite = core_is_finite(value + core_max_norm(position));
     return evaluation;
 }

@@ -40,7 +40,7 @@ core_root core_root_of(const core_evaluation evaluation, const core_interval_sea
     // counts if that lies in the element: is_inside, and is_surely_inside.
     root.is_proven = interval.is_known && candidate.s - candidate.half_width >= -evaluation.reach &&
                      candidate.s + candidate.half_width <= evaluation.reach &&
-                     evaluation.speed * evaluation.bend * interval.radius < abs(interval.slope);
+                     evaluation.turn < abs(interval.slope);
     const elvis_vec3 to_root = interval.q + candidate.s * interval.w;
     const elvis_real distance = core_max_norm(to_root);
     root.xi = evaluation.xi + to_root;

@@ -74,8 +74,12 @@ layout(push_constant) uniform core_parameters {
 #include "isosurface/interval_root.glsl"
 #include "isosurface/octant_search.glsl"
 
-// Iterations of one pixel: all pixels of an invocation stay below where drivers end loops.
-#define CORE_WORK_LIMIT 4000u
+// Iterations of one pixel: all pixels of an invocation stay below where drivers end loops. Those that descend draw one.
+#if CORE_DESCENDS
+#define CORE_WORK_LIMIT 24000u
+#else
+#define CORE_WORK_LIMIT 8000u
+#endif
 
 // The root, as a crossing of the ray.
 core_nearest_crossing core_found_at(const core_evaluation evaluation, const core_root root) {

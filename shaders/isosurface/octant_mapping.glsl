@@ -3,6 +3,7 @@
 // The kernel brings core_words, which the records are written to, core_centre, that of the hierarchies, and core_curvatures.
 
 #include "arithmetic/finite.glsl"
+#include "element/bend_form.glsl"
 #include "element/element_frame.glsl"
 #include "element/face_frame.glsl"
 #include "element/local_curvature.glsl"
@@ -16,11 +17,17 @@
 // that pictures would take twice as long.
 #define CORE_MOST_PROVEN_CURVATURE elvis_real(1)
 // In elements with a curvature above CORE_MOST_MEASURED_CURVATURE the proven bound at the octant's point counts, where one is known.
-// A linearization that leaves out more than this much of the octant's half side is of no use. With less than a quarter, the far solution of a
-// prediction (element/prediction.glsl) lies 1/(2C) away or more, which is the octant's side: it lies outside of it. Octants that are small
-// already, beside places where the mapping is nearly singular, would stay without a linear model.
+// A linearization that leaves out more than this much of the octant's half side is of no use. With less than a quarter, the far solution of
+// a prediction (element/prediction.glsl) lies 1/(2C) away or more, which is the octant's side: it lies outside of it. Octants that are
+// small already, beside places where the mapping is nearly singular, would stay without a linear model.
 #define CORE_SMALL_LEVEL 5u
 #define CORE_MOST_BENDING(code) (((code) & 7u) < CORE_SMALL_LEVEL ? elvis_real(0.25LF) : elvis_real(0.5LF))
+
+// Of elements with forms, octants are small enough if the curvature by N times half their length is below this: a quarter, and the far
+// solution of a prediction from any point lies outside; it is less, because the curvature is another one there. The linearization may
+// then leave out more.
+#define CORE_MOST_BEND_BY_FORMS elvis_real(0.15LF)
+#define CORE_MOST_BENDING_BY_FORMS elvis_real(2)
 
 struct core_octant_place {
     // In reference coordinates; where the mapping and the field are linearized, in the shape; and the way from there to the middle.
@@ -45,8 +52,13 @@ struct core_octant_mapping {
     elvis_mat3 jacobian;
     // Of the middle, relative to the hierarchies' centre; of the coordinates that rounding is judged by; and half the sides of a box.
     elvis_vec3 position, sizes, half_box;
-    // What the linearization leaves out, and half the octant's side with it.
-    elvis_real curvature, bending, size;
+    // What the linearization leaves out, rounding, and half the octant's side with both.
+    elvis_real curvature, bending, rounding, size;
+#if CORE_HAS_BEND_FORMS
+    core_local_bend bend;
+    // From xi, in lengths N.
+    elvis_real farthest;
+#endif
     bool is_linear;
 };
 
@@ -68,7 +80,7 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
     const elvis_vec3 ones = elvis_vec3(1);
     const elvis_real norm = max(max(dot(abs(frame.row0), ones), dot(abs(frame.row1), ones)), dot(abs(frame.row2), ones));
     mapping.sizes = abs(mapping.position) + abs(elvis_origin(element)) + abs(position);
-    const elvis_real rounding = elvis_real(CORE_OCTANT_ROUNDING) * norm * core_max_norm(mapping.sizes) +
+    mapping.rounding = elvis_real(CORE_OCTANT_ROUNDING) * norm * core_max_norm(mapping.sizes) +
                                 place.half_side * (elvis_real(2) * defect + elvis_real(1e-4LF)) + core_max_norm(frame.xi_error);
     const elvis_vec3 sides = abs(mapping.jacobian[0]) + abs(mapping.jacobian[1]) + abs(mapping.jacobian[2]);
     mapping.curvature = elvis_fetch_core_curvatures(element, 0u);
@@ -84,10 +96,21 @@ core_octant_mapping core_mapping_in(uint element, uint code, core_octant_place p
                                                                                             : mapping.curvature;
         turn = is_local ? place.radius * core_proven_turn(element) : turn;
     }
-    mapping.bending = mapping.curvature * place.radius * place.radius + rounding;
-    mapping.size = place.half_side + mapping.bending;
+    mapping.bending = mapping.curvature * place.radius * place.radius;
+    elvis_real most_bending = CORE_MOST_BENDING(code) * place.half_side;
+#if CORE_HAS_BEND_FORMS
+    mapping.bend = core_local_bend_at(element, frame);
+    const elvis_real half_length = place.half_side * core_bend_length_of_cube(mapping.bend);
+    mapping.farthest = core_bend_length(mapping.bend, place.shift) + half_length;
+    if (mapping.bend.is_known) {
+        mapping.bending = min(mapping.bending, core_bend_error(mapping.bend, mapping.farthest));
+        most_bending = mapping.bend.curvature * half_length < CORE_MOST_BEND_BY_FORMS ? CORE_MOST_BENDING_BY_FORMS * place.half_side
+                                                                                      : most_bending;
+    }
+#endif
+    mapping.size = place.half_side + mapping.bending + mapping.rounding;
     const bool is_finite = core_is_finite(mapping.size + core_max_norm(mapping.position));
-    mapping.is_linear = frame.is_sound && is_finite && mapping.bending < CORE_MOST_BENDING(code) * place.half_side;
+    mapping.is_linear = frame.is_sound && is_finite && mapping.bending + mapping.rounding < most_bending;
     // x = x(xi) + J d + e, |e| <= L |d|^2 / 2, with a Jacobian that changes by L |d| at most: twice as much as measured.
     const elvis_vec3 bent_box = place.radius * (sides + turn) + core_max_norm(place.shift) * sides;
     mapping.half_box = (mapping.is_linear ? min(mapping.size * sides, bent_box) : bent_box) +
@@ -99,6 +122,16 @@ void core_write_vector(uint at, vec3 v) {
     for (int k = 0; k < 3; ++k) {
         core_words[at + uint(k)] = floatBitsToUint(v[k]);
     }
+}
+
+// What the field leaves out with the mapping, by its slope at xi.
+elvis_real core_octant_value_off(const core_octant_mapping mapping, elvis_vec3 slope) {
+    elvis_real off = core_norm1(slope) * mapping.bending;
+#if CORE_HAS_BEND_FORMS
+    const elvis_real by_forms = core_bend_value_error(mapping.bend, core_to_world(mapping.frame, slope), mapping.farthest);
+    off = mapping.bend.is_known ? min(off, by_forms) : off;
+#endif
+    return off + core_norm1(slope) * mapping.rounding;
 }
 
 // All of the record but the field.

@@ -22,7 +22,7 @@ uint core_interval_search_begin(const core_octant octant, core_octant_span reach
     search.to = search.next = search.last = elvis_real(reached.span.y);
     search.element = reached.is_met ? octant.element : CORE_NO_ELEMENT;
     search.curvature = elvis_real(octant.curvature);
-    search.bent_code = core_is_bent(octant) ? octant.code & ~CORE_OCTANT_ESTIMATED : CORE_NO_CODE;
+    search.bent_code = core_is_bent(octant) || CORE_HAS_BEND_FORMS == 1 ? octant.code & ~CORE_OCTANT_ESTIMATED : CORE_NO_CODE;
     search.used = search.moves = 0u;
     search.wide = elvis_real(0);
     search.shortest = CORE_FLOOR * CORE_NARROW;

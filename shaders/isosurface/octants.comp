@@ -26,7 +26,7 @@ void core_write_field(uint at, core_model model, core_octant_place place, core_o
     const elvis_real lost = elvis_real(16.0 * CORE_FLOAT_ROUNDOFF) * (abs(model.value) + elvis_real(4) * steepness + model.remainder) +
                             elvis_real(1e-36LF);
     const bool is_known = model.remainder <= CORE_LARGEST_REMAINDER;
-    const elvis_real error = model.remainder + steepness * mapping.bending + lost;
+    const elvis_real error = model.remainder + core_octant_value_off(mapping, model.slope) + lost;
     const elvis_real reach = model.remainder + steepness * place.half_side + lost;
     core_write_vector(at + 12u, is_known ? vec3(mapping.size * model.slope) : vec3(0));
     core_words[at + 15u] = floatBitsToUint(is_known ? float(at_middle) : 0.0);

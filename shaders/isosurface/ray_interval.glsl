@@ -11,8 +11,21 @@
 
 #include "element/inside.glsl"
 #include "arithmetic/model.glsl"
+#include "element/bend_form.glsl"
 #include "element/prediction.glsl"
 #include "element/shape_region.glsl"
+
+// What bounds how far predictions from xi are off.
+struct core_interval_bend {
+    elvis_real curvature;
+    // From xi, of the points that are looked for; 0: the near solution of a prediction is theirs.
+    elvis_real farthest;
+#if CORE_HAS_BEND_FORMS
+    core_local_bend local;
+    // The same as `farthest`, by the length N.
+    elvis_real farthest_length;
+#endif
+};
 
 struct core_ray_interval {
     // Offset of the middle, and its change along the ray, in reference coordinates.
@@ -23,6 +36,10 @@ struct core_ray_interval {
     elvis_real clearance;
     // Largest offset from xi of what is left, in the maximum norm; what the linearization leaves out there, without rounding and with it.
     elvis_real radius, bent_off, beyond;
+#if CORE_HAS_BEND_FORMS
+    // Largest length N of an offset; CORE_FAR where none is known.
+    elvis_real bend_length;
+#endif
     // In the world.
     elvis_real way;
     elvis_real value, slope, error;
@@ -33,10 +50,22 @@ elvis_real core_interval_radius(core_ray_interval interval) {
     return max(core_max_norm(interval.q + interval.low * interval.w), core_max_norm(interval.q + interval.high * interval.w));
 }
 
-// The interval from -half_width to half_width, cut by the faces. `offset`: of the middle from the image of xi. `farthest`: from xi, of the
-// points that are looked for; 0: the near solution of a prediction is theirs.
+// What the linearization leaves out of what is left of the interval, whose ends are predicted `step` away at most, in the maximum norm.
+void core_interval_leave_out(const core_interval_bend bend, elvis_real step, inout core_ray_interval interval) {
+    interval.bent_off = bend.farthest > elvis_real(0) ? core_prediction_error_within(bend.curvature, step, bend.farthest)
+                                                      : core_prediction_error(bend.curvature, step);
+#if CORE_HAS_BEND_FORMS
+    const elvis_real length_to = max(core_bend_length(bend.local, interval.q + interval.low * interval.w),
+                                     core_bend_length(bend.local, interval.q + interval.high * interval.w));
+    const elvis_real distance = core_prediction_distance_within(bend.local.curvature, length_to, bend.farthest_length);
+    interval.bend_length = bend.local.is_known ? distance : CORE_FAR;
+    interval.bent_off = bend.local.is_known ? min(interval.bent_off, core_bend_error(bend.local, distance)) : interval.bent_off;
+#endif
+}
+
+// The interval from -half_width to half_width, cut by the faces. `offset`: of the middle from the image of xi.
 core_ray_interval core_interval_in_element(elvis_vec3 xi, const core_frame frame, elvis_vec3 offset, elvis_vec3 direction,
-                                           elvis_real half_width, elvis_real curvature, elvis_real farthest) {
+                                           elvis_real half_width, const core_interval_bend bend) {
     core_ray_interval interval;
     interval.q = core_to_xi(frame, offset);
     interval.w = core_to_xi(frame, direction);
@@ -52,8 +81,7 @@ core_ray_interval core_interval_in_element(elvis_vec3 xi, const core_frame frame
     // What is left is nearer, and so better known: a second time.
     for (int iteration = 0; iteration < 2; ++iteration) {
         const elvis_real step = core_interval_radius(interval);
-        interval.bent_off = farthest > elvis_real(0) ? core_prediction_error_within(curvature, step, farthest)
-                                                     : core_prediction_error(curvature, step);
+        core_interval_leave_out(bend, step, interval);
         interval.beyond = interval.bent_off + rounding;
         interval.radius = step + interval.beyond;
         elvis_real low = interval.low, high = interval.high;
@@ -88,12 +116,24 @@ void core_cut_interval_inside(core_inside g, inout core_ray_interval interval) {
 }
 #endif
 
-// What the field at the interval's points is off, because those are off.
-elvis_real core_value_off(const core_ray_interval interval, const core_frame frame, elvis_vec3 slope) {
+// What the field at the interval's points is off because the mapping bends.
+elvis_real core_value_bent_off(const core_ray_interval interval, const core_interval_bend bend, const core_frame frame, elvis_vec3 slope) {
+    const elvis_real off = core_model_norm1(slope) * interval.bent_off;
+#if CORE_HAS_BEND_FORMS
+    const elvis_real by_forms = core_bend_value_error(bend.local, core_to_world(frame, slope), interval.bend_length);
+    return bend.local.is_known ? min(off, by_forms) : off;
+#else
+    return off;
+#endif
+}
+
+// What it is off because those are, for rounding, too.
+elvis_real core_value_off(const core_ray_interval interval, const core_interval_bend bend, const core_frame frame, elvis_vec3 slope) {
+    const elvis_real bent_off = core_value_bent_off(interval, bend, frame, slope);
     const elvis_real linear = elvis_real(4) * CORE_ROUNDOFF * interval.radius;
 #if ELVIS_REAL_IS_DOUBLE
     // Rounding is small as it is, and registers are few.
-    return core_model_norm1(slope) * (interval.beyond + linear);
+    return bent_off + core_model_norm1(slope) * (interval.beyond - interval.bent_off + linear);
 #else
     // A position that is off moves the field by its gradient in the world: in elements whose Jacobian is nearly singular, that is far less
     // than what the reference coordinates are off would make of its slope.
@@ -101,13 +141,13 @@ elvis_real core_value_off(const core_ray_interval interval, const core_frame fra
     // Of the Jacobian, relative to the element's size, and of its inverse: cofactors, and the determinant.
     const elvis_vec3 offset = max(abs(interval.q + interval.low * interval.w), abs(interval.q + interval.high * interval.w));
     const elvis_real by_inverse = frame.conditioning * dot(abs(slope), offset + interval.way / frame.lengths);
-    return core_model_norm1(slope) * (interval.bent_off + linear) + (elvis_real(1) + elvis_real(4) * interval.radius) * by_position +
+    return bent_off + core_model_norm1(slope) * linear + (elvis_real(1) + elvis_real(4) * interval.radius) * by_position +
            elvis_real(8) * CORE_ROUNDOFF * by_inverse;
 #endif
 }
 
-void core_interval_take_field(inout core_ray_interval interval, uint element, elvis_vec3 xi, const core_frame frame, out core_model model,
-                              out elvis_real value) {
+void core_interval_take_field(inout core_ray_interval interval, uint element, elvis_vec3 xi, const core_frame frame,
+                              const core_interval_bend bend, out core_model model, out elvis_real value) {
     core_region region;
     region.corner0 = interval.q + interval.low * interval.w;
     region.corner1 = interval.q + interval.high * interval.w;
@@ -119,7 +159,7 @@ void core_interval_take_field(inout core_ray_interval interval, uint element, el
     model = core_shown_model(element, xi, region, value);
     interval.value = model.value + dot(model.slope, interval.q);
     interval.slope = dot(model.slope, interval.w);
-    interval.error = CORE_MODEL_UP * (model.remainder + core_value_off(interval, frame, model.slope)) +
+    interval.error = CORE_MODEL_UP * (model.remainder + core_value_off(interval, bend, frame, model.slope)) +
                   elvis_real(4) * CORE_ROUNDOFF * abs(model.value) + CORE_MODEL_TINY;
     interval.is_known = core_model_is_known(model);
 }

@@ -66,6 +66,24 @@ TEST_CASE("Isosurfaces in strongly bent tetrahedra are decided at nearly all pix
     CHECK(tally.flagged < tally.pixels / 40);
 }
 
+TEST_CASE("Isosurfaces in long thin tetrahedra that bend along their length are decided") {
+    const Precision precision = GENERATE(Precision::float32, Precision::float64);
+    const TemporaryFile file("long.h5");
+    oracle::generate(R"({"generator": 1, "mesh": "torus", "shape": "tetrahedron", "elements": [6, 2, 8], "layers": 2,
+                         "geometry_order": 2, "order": 3, "field": "waves"})",
+                     file.path());
+    FrameRequest request = request_of_rough_field({2.6, 2.1, 1.9}, {0, 0, 0}, {0, 0, 1}, 40);
+    Surface surface = colored_surface();
+    surface.geometry = Isosurfaces{.values = {0.4}};
+    request.surfaces = {surface};
+    const Tally tally = judge_picture(file.path(), request, precision);
+    std::cout << "long tetrahedra: " << tally.flagged << " of " << tally.pixels << " flagged, " << tally.hits << " hits\n";
+    CHECK(tally.hits > tally.pixels / 10);
+    CHECK(tally.far + tally.near == 0);
+    // Was a fifth of all pixels.
+    CHECK(tally.flagged < tally.hits / 50);
+}
+
 TEST_CASE("A narrow peak between the samples of a step is found") {
     FrameRequest request = request_of_rough_field({-1.275316879459872, 0.11743809500417267, -3.139820822399736},
                                                   {-0.12538921728558483, 0.0036675741902809297, 0.14033107231184935},

@@ -22,7 +22,7 @@ const std::vector<std::string> faces{"core_nodes", "core_faces", "core_patches"}
 const std::vector<std::string> fitted_faces{"core_nodes", "core_faces", "core_patches", "core_face_points"};
 const std::vector<std::string> octants{"core_elements", "core_nodes", "core_octants"};
 const std::vector<std::string> chains{"core_nodes", "core_links", "core_elements"};
-const std::string bends = "core_bends (reals)";
+const std::string bends = "core_bends (reals)", forms = "core_bend_forms (reals)";
 const std::vector<std::string> curved_chains{"core_nodes", "core_links", "core_cones", "core_elements", bends};
 
 /** For elements that are nearly linear, and for strongly bent ones. */
@@ -195,6 +195,11 @@ void add_isosurface_kernels(std::vector<KernelUse>& uses) {
                         .shows_own_boundary = true,
                         .watches_loops = true});
     }
+    uses.push_back({.kernel = "isosurface/octants",
+                    .element = Element::model,
+                    .buffers = {forms},
+                    .is_for_solids = true,
+                    .watches_loops = true});
     const std::vector<Choice> common{
         width, height, {"CORE_ROWS", {"4u"}}, {"CORE_TILE_CAPACITY", {"512u"}}, yes("CORE_TESTS_ISOVALUES"), element_class};
     const auto use = [&](const char* kernel, const std::vector<std::string>& buffers, const std::vector<Choice>& more) {
@@ -208,6 +213,10 @@ void add_isosurface_kernels(std::vector<KernelUse>& uses) {
                        {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS"), no("CORE_HAS_MASK")}));
     uses.push_back(use("isosurface/isosurface", octants,
                        {no_or_yes("CORE_HAS_ONE_ISOVALUE"), yes("CORE_DESCENDS"), yes("CORE_HAS_MASK")}));
+    std::vector<std::string> with_forms = octants;
+    with_forms.push_back(forms);
+    uses.push_back(use("isosurface/isosurface", with_forms,
+                       {no_or_yes("CORE_HAS_ONE_ISOVALUE"), no_or_yes("CORE_DESCENDS"), no("CORE_HAS_MASK")}));
     for (const bool is_nested : {true, false}) {
         KernelUse projection = use("isosurface/isosurface_projection", {"core_elements", "core_nodes", "core_models"},
                                    {no_or_yes("CORE_USES_COLLEAGUE"), is_nested ? no("CORE_PLAIN") : yes("CORE_PLAIN")});

@@ -148,11 +148,12 @@ ElementBends bends_of(const Polynomial& polynomial, elvis_shape shape, const std
 /** shaders/element/local_curvature.glsl. */
 double curvature_at(const Polynomial& polynomial, const ElementBends& bends, const Vector3& xi) {
     const std::array<double, 9> inverse = inverse_of(polynomial.jacobian(xi));
+    const std::array<float, 9>& of = bends.vectors;
     double largest = 0;
     for (std::size_t i = 0; i < 9; i += 3) {
         double sum = 0;
         for (std::size_t m = 0; m < 9; m += 3) {
-            sum += std::abs(inverse[i] * bends[m] + inverse[i + 1] * bends[m + 1] + inverse[i + 2] * bends[m + 2]);
+            sum += std::abs(inverse[i] * of[m] + inverse[i + 1] * of[m + 1] + inverse[i + 2] * of[m + 2]);
         }
         largest = std::max(largest, 0.5001 * sum);
     }
@@ -237,6 +238,97 @@ TEST_CASE("no prediction from a point bends more than the point's own curvature"
         std::cout << "shape " << shape << ": bounds at points up to " << worst << " times too large, on average "
                   << share / static_cast<double>(n_points) << " of the element's\n";
     }
+}
+
+namespace {
+
+double quadratic(const SymmetricMatrix& m, const Vector3& u) {
+    return m[0] * u[0] * u[0] + m[3] * u[1] * u[1] + m[5] * u[2] * u[2] +
+           2 * (m[1] * u[0] * u[1] + m[2] * u[0] * u[2] + m[4] * u[1] * u[2]);
+}
+
+/** Long in a direction that is none of the coordinates', and thin across; it bends along its length, and a little everywhere.
+ */
+Polynomial long_and_bent(int degree, std::mt19937& engine) {
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto any = [&] { return Vector3{number(engine), number(engine), number(engine)}; };
+    const Vector3 along{0.2, 1, 1}, length = scaled(any(), 5), way = scaled(any(), 20);
+    std::vector<Term> terms;
+    for (std::size_t j = 0; j < 3; ++j) {
+        std::array<int, 3> power{};
+        power[j] = 1;
+        terms.push_back({power, scaled(length, along[j])});
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::array<int, 3> square = power;
+            ++square[k];
+            terms.push_back({square, scaled(way, along[j] * along[k])});
+        }
+    }
+    for (int term = 0; term < 4 * (degree - 2); ++term) {
+        terms.push_back({{term % 2, 1, degree - 1 - term % 2}, scaled(any(), 0.05)});
+    }
+    return Polynomial(std::move(terms));
+}
+
+} // namespace
+
+TEST_CASE("second derivatives are bounded by an element's forms in all directions, and little across a long one") {
+    std::mt19937 engine(22);
+    std::uniform_real_distribution<double> number(-1, 1);
+    const auto any = [&] { return Vector3{number(engine), number(engine), number(engine)}; };
+    double sharpest = 0, across = 0;
+    for (const elvis_shape shape : {ELVIS_SHAPE_HEXAHEDRON, ELVIS_SHAPE_PRISM, ELVIS_SHAPE_TETRAHEDRON}) {
+        for (const std::uint32_t degree : {2u, 3u, 4u}) {
+            const Polynomial polynomial = long_and_bent(static_cast<int>(degree), engine);
+            std::vector<MappingHessian> hessians;
+            for (const Vector3& xi : lattice(shape, 4)) {
+                MappingHessian& hessian = hessians.emplace_back();
+                for (std::size_t entry = 0; entry < 6; ++entry) {
+                    constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+                    const Vector3 second = polynomial.derivative(xi, {pairs[entry][0], pairs[entry][1]});
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        hessian[i][entry] = second[i];
+                    }
+                }
+            }
+            const BendForm form = bend_form_of(hessians, polynomial.jacobian({-0.5, -0.5, -0.5}));
+            REQUIRE(form != BendForm{});
+            for (int sample = 0; sample < 2000; ++sample) {
+                const Vector3 u = any(), v = any(), p = any();
+                const double bound =
+                    std::sqrt(quadratic(form.ways, p) * quadratic(form.lengths, u) * quadratic(form.lengths, v));
+                for (const MappingHessian& hessian : hessians) {
+                    double shown = 0;
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        shown += 0.5 * p[i] *
+                                 (quadratic(hessian[i], plus(u, v)) - quadratic(hessian[i], u) - quadratic(hessian[i], v));
+                    }
+                    REQUIRE(std::abs(shown) <= bound);
+                    sharpest = std::max(sharpest, std::abs(shown) / bound);
+                }
+            }
+            across = std::max(across, quadratic(form.lengths, {0, 1, -1}) / quadratic(form.lengths, {0, 1, 1}));
+        }
+    }
+    std::cout << "forms: up to " << sharpest << " of the bound, " << across << " of it across\n";
+    CHECK(sharpest > 0.9);
+    CHECK(across < 0.05);
+}
+
+TEST_CASE("only elements without a proven curvature have forms, and those hold") {
+    std::mt19937 engine(23);
+    const Polynomial mild = random_polynomial(ELVIS_SHAPE_TETRAHEDRON, 3, 0.3, engine);
+    REQUIRE(proven(mild, ELVIS_SHAPE_TETRAHEDRON, {3, 3, 3}) < unknown_curvature);
+    CHECK(bends_of(mild, ELVIS_SHAPE_TETRAHEDRON, {3, 3, 3}).form == BendForm{});
+    // x = (10 xi1, xi2 + 6 xi1^2, xi3): sheared, it does not fold, and its second derivative is (0, 12, 0).
+    const Polynomial sheared(std::vector<Term>{{{1, 0, 0}, {9, 0, 0}}, {{2, 0, 0}, {0, 6, 0}}});
+    REQUIRE(proven(sheared, ELVIS_SHAPE_HEXAHEDRON, {2, 1, 1}) == unknown_curvature);
+    const BendForm form = bends_of(sheared, ELVIS_SHAPE_HEXAHEDRON, {2, 1, 1}).form;
+    const double bound = std::sqrt(quadratic(form.ways, {0, 1, 0})) * quadratic(form.lengths, {1, 0, 0});
+    CHECK(bound >= 12);
+    CHECK(bound < 12.1);
+    CHECK(quadratic(form.lengths, {0, 1, 1}) < 0.01 * quadratic(form.lengths, {1, 0, 0}));
+    CHECK(bend_form_of({}, {}) == BendForm{});
 }
 
 TEST_CASE("what bends only between the points where curvatures are measured is known to bend") {

@@ -45,6 +45,11 @@ struct Parameters {
 
 } // namespace
 
+/** Rays that descend may take many iterations, of which drivers allow an invocation so many. */
+std::uint32_t IsosurfacePass::rows_of(const Device& device, Role role) {
+    return role == Role::pixels ? rows_an_invocation(device, 4, 1) : 1;
+}
+
 const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device, Role role, bool has_one_isovalue) {
     std::unique_ptr<ComposedKernel>& kernel = kernels[static_cast<std::size_t>(role)][has_one_isovalue ? 1 : 0];
     if (!kernel) {
@@ -61,6 +66,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
             own.kernel = "isosurface/isosurface.comp";
             const bool has_mask = role == Role::chosen_pixels;
             own.defines.emplace_back("CORE_DESCENDS", role == Role::pixels ? "0" : "1");
+            own.defines.emplace_back("CORE_ROWS", std::to_string(rows_of(device, role)) + "u");
             own.defines.emplace_back("CORE_HAS_MASK", has_mask ? "1" : "0");
             own.bindings = buffer_bindings({.uniform = 1, .storage = has_mask ? 12u : 11u});
             own.push_constant_bytes = sizeof(Parameters);
@@ -81,9 +87,8 @@ void IsosurfacePass::ClassKernels::follow_room(const IsovalueSet& set) {
 
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
-      m_rows(rows_an_invocation(device, 4, 1)), m_extent(static_cast<float>(diagonal_of(data.bounds()))),
-      m_isovalue_set(device, volume, data), m_projection(device), m_frame(view_buffer(device, data.precision())),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_extent(static_cast<float>(diagonal_of(data.bounds()))), m_isovalue_set(device, volume, data), m_projection(device),
+      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -96,7 +101,6 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
         data.add_field(request, index, true);
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
                            {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
-                           {"CORE_ROWS", std::to_string(m_rows) + "u"},
                            {"CORE_TILE_CAPACITY", std::to_string(tile_capacity) + "u"},
                            {"CORE_TESTS_ISOVALUES", "1"},
                            {"CORE_CLASS", std::to_string(index) + "u"}};
@@ -277,7 +281,7 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
             in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first_listed = range.first + first;
                 kernels.provide(m_device, role, m_values.size() == 1)
-                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / m_rows);
+                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / rows_of(m_device, role));
             });
         };
         draw_tiles(mask ? Role::chosen_pixels : Role::pixels, ranges[index].shallow);

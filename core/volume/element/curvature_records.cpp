@@ -7,8 +7,8 @@ namespace elvis {
 
 namespace {
 
-/** Three vectors of four numbers. */
-constexpr std::uint32_t bends_size = 12;
+/** Three, and four, vectors of four numbers. */
+constexpr std::uint32_t bends_size = 12, forms_size = 16;
 /** Elements that are written at once. */
 constexpr std::size_t block = 1u << 16;
 
@@ -17,8 +17,23 @@ void write_bends(const RecordBuffer& records, std::span<const ElementBends> bend
     for (std::size_t first = 0; first < bends.size(); first += block) {
         numbers.clear();
         for (const ElementBends& of : bends.subspan(first, std::min(block, bends.size() - first))) {
-            for (std::size_t m = 0; m < of.size(); m += 3) {
-                numbers.insert(numbers.end(), {of[m], of[m + 1], of[m + 2], 0.0});
+            for (std::size_t m = 0; m < of.vectors.size(); m += 3) {
+                numbers.insert(numbers.end(), {of.vectors[m], of.vectors[m + 1], of.vectors[m + 2], 0.0});
+            }
+        }
+        records.write_reals(first, numbers);
+    }
+}
+
+bool has_form(const ElementBends& bends) { return bends.form.lengths[0] > 0; }
+
+void write_forms(const RecordBuffer& records, std::span<const ElementBends> bends) {
+    std::vector<double> numbers;
+    for (std::size_t first = 0; first < bends.size(); first += block) {
+        numbers.clear();
+        for (const ElementBends& of : bends.subspan(first, std::min(block, bends.size() - first))) {
+            for (const SymmetricMatrix& m : {of.form.lengths, of.form.ways}) {
+                numbers.insert(numbers.end(), {m[0], m[3], m[5], 0.0, m[1], m[2], m[4], 0.0});
             }
         }
         records.write_reals(first, numbers);
@@ -44,6 +59,12 @@ void CurvatureRecords::write(const Device& device, Precision precision, const El
     if (m_bends) {
         write_bends(*m_bends, curvatures.bends.empty() ? std::vector<ElementBends>(n_elements) : curvatures.bends);
     }
+    if (!m_forms && std::ranges::any_of(curvatures.bends, has_form)) {
+        m_forms = std::make_unique<RecordBuffer>(device, RecordKind::real, precision, n_elements, forms_size);
+    }
+    if (m_forms) {
+        write_forms(*m_forms, curvatures.bends.empty() ? std::vector<ElementBends>(n_elements) : curvatures.bends);
+    }
 }
 
 std::vector<FetchBuffer> CurvatureRecords::buffers() const {
@@ -56,8 +77,12 @@ std::vector<FetchBuffer> CurvatureRecords::bends() const {
     return m_bends ? std::vector<FetchBuffer>{{"core_bends", m_bends.get()}} : std::vector<FetchBuffer>{};
 }
 
+std::vector<FetchBuffer> CurvatureRecords::forms() const {
+    return m_forms ? std::vector<FetchBuffer>{{"core_bend_forms", m_forms.get()}} : std::vector<FetchBuffer>{};
+}
+
 std::uint64_t CurvatureRecords::bytes() const {
-    return (m_curvatures ? m_curvatures->bytes() : 0) + (m_bends ? m_bends->bytes() : 0);
+    return (m_curvatures ? m_curvatures->bytes() : 0) + (m_bends ? m_bends->bytes() : 0) + (m_forms ? m_forms->bytes() : 0);
 }
 
 } // namespace elvis

@@ -123,7 +123,7 @@ ElementBends bends_of(const Matrix3& jacobian, const Matrix3& inverse, const Vec
     ElementBends bends{};
     for (std::size_t entry = 0; entry < 9 && is_finite(inverse); ++entry) {
         const std::size_t m = entry / 3, i = entry % 3;
-        bends[entry] = static_cast<float>(most[m] * jacobian[3 * i + m]);
+        bends.vectors[entry] = static_cast<float>(most[m] * jacobian[3 * i + m]);
     }
     return bends;
 }
@@ -180,6 +180,21 @@ struct CurvatureBounder::Element {
             raise_to_norm_of(form, to, largest);
         }
         return 0.5 * largest;
+    }
+
+    /** `jacobian`: J0. */
+    BendForm bend_form(const Matrix3& jacobian) const {
+        std::vector<MappingHessian> hessians(forms.size());
+        for (std::size_t coefficient = 0; coefficient < forms.size(); ++coefficient) {
+            for (std::size_t entry = 0; entry < SecondDerivatives::n_derivatives; ++entry) {
+                const double* const of = &forms[coefficient].entries[3 * entry];
+                for (std::size_t i = 0; i < 3; ++i) {
+                    hessians[coefficient][i][entry] =
+                        jacobian[3 * i] * of[0] + jacobian[3 * i + 1] * of[1] + jacobian[3 * i + 2] * of[2];
+                }
+            }
+        }
+        return bend_form_of(hessians, jacobian);
     }
 
     static void raise_to_norm_of(const Form& form, const Matrix3& to, double& largest) {
@@ -287,7 +302,11 @@ void CurvatureBounder::bound_group(Group& group, std::span<float> curvatures, st
         const double in_parts = bound_in_parts(element, curvature);
         const bool is_folded = std::isnan(in_parts) || (in_parts > most_curvature && folds(element));
         curvatures[lane] = is_folded ? unknown_curvature : rounded_up(in_parts);
-        bends[lane] = is_folded ? ElementBends{} : bends[lane];
+        if (is_folded) {
+            bends[lane] = {};
+        } else if (curvatures[lane] == unknown_curvature) {
+            bends[lane].form = element.bend_form(jacobians[lane]);
+        }
     }
 }
 

@@ -24,6 +24,7 @@
 #pragma once
 
 #include <core/plugin_host/runtime_volume.hpp>
+#include <core/volume/element/bend_form.hpp>
 #include <core/volume/element/second_derivatives.hpp>
 
 #include <array>
@@ -46,8 +47,15 @@ inline constexpr float followed_curvature = 0.25F;
 /** Larger ones are not proven: CORE_MOST_MEASURED_CURVATURE of shaders/element/local_curvature.glsl. */
 inline constexpr float most_measured_curvature = 4.0F;
 
-/** The vectors s_m J0 e_m, one after the other; all zero where nothing is known of them, and of elements that fold. */
-using ElementBends = std::array<float, 9>;
+/** What is known of how an element bends; all zero where nothing is, and of elements that fold. */
+struct ElementBends {
+    /** s_m J0 e_m, one after the other. */
+    std::array<float, 9> vectors{};
+    /** Only of elements without a proven curvature. */
+    BendForm form{};
+
+    bool operator==(const ElementBends&) const = default;
+};
 
 /** Of one shape and order. Any thread may call. */
 class CurvatureBounder {
