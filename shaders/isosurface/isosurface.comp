@@ -146,7 +146,7 @@ uint core_search_ray(core_ray ray, const core_last_crossing last, core_octant_de
             while (search.element == CORE_NO_ELEMENT && core_has_octants_ahead(descent) && work < CORE_WORK_LIMIT) {
                 work += 1u;
                 const float end_t = float(core_nearest_end(nearest));
-                const uint index = core_next_octants(ray, end_t, descent);
+                const uint index = core_seek_octant(ray, end_t, descent);
                 if (index != CORE_NO_NODE) {
                     const core_octant octant = core_fetch_octant(index);
                     flags |= core_interval_search_begin(octant, core_octant_span_of(octant, ray, end_t), search);

@@ -62,8 +62,8 @@ uint core_next_octant(core_ray ray, float end_t, inout core_octant_descent desce
     return word;
 }
 
-// The same after a few inner nodes at once: drivers count iterations, not what is done in one.
-uint core_next_octants(core_ray ray, float end_t, inout core_octant_descent descent) {
+// The same, but up to four nodes are passed in one iteration: drivers end loops by the number of their iterations.
+uint core_seek_octant(core_ray ray, float end_t, inout core_octant_descent descent) {
     uint index = core_next_octant(ray, end_t, descent);
 #if CORE_DESCENDS
     if (index == CORE_NO_NODE && core_has_octants_ahead(descent)) {

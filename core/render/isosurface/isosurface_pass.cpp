@@ -45,7 +45,7 @@ struct Parameters {
 
 } // namespace
 
-/** Rays that descend may take many iterations, of which drivers allow an invocation so many. */
+/** Rays that descend to octants may need all iterations. */
 std::uint32_t IsosurfacePass::rows_of(const Device& device, Role role) {
     return role == Role::pixels ? rows_an_invocation(device, 4, 1) : 1;
 }

@@ -46,7 +46,7 @@ private:
     /** Lists for tiles of pixels; tiles whose lists hold leaves only; tiles that many elements may touch; chosen pixels of any.
      */
     enum class Role { tiles, pixels, deep_pixels, chosen_pixels, n_roles };
-    /** Rows of pixels that an invocation draws. */
+    /** Rows of pixels that an invocation draws: they share the iterations that drivers grant. */
     static std::uint32_t rows_of(const Device& device, Role role);
     struct ClassKernels {
         /** What they have in common. */
@@ -82,7 +82,6 @@ private:
     const Device& m_device;
     Precision m_precision;
     std::uint32_t m_tile_width;
-    /** Of an invocation: all its pixels share the iterations that drivers grant. */
     /** The diagonal of the volume's bounds. */
     float m_extent;
     IsovalueSet m_isovalue_set;

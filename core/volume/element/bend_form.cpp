@@ -9,7 +9,7 @@ namespace elvis {
 
 namespace {
 
-/** Eigenvalues of forms are at least this share of the largest one, so that single precision does not lose them. */
+/** Eigenvalues are raised to this share of the largest one: forms stay invertible, and single precision does not lose them. */
 constexpr double least_share = 1e-4;
 /** For rounding, that of entries to single precision, too. */
 constexpr double margin = 1 + 1e-5;
