@@ -102,10 +102,11 @@ endif()
 # These have no archives everywhere, but headers that hold all of them.
 add_library(elvis_fmt INTERFACE)
 target_link_libraries(elvis_fmt INTERFACE fmt::fmt-header-only)
-add_library(elvis_spdlog INTERFACE)
-target_include_directories(elvis_spdlog SYSTEM INTERFACE $<TARGET_PROPERTY:spdlog::spdlog_header_only,INTERFACE_INCLUDE_DIRECTORIES>)
-target_compile_definitions(elvis_spdlog INTERFACE SPDLOG_FMT_EXTERNAL)
-target_link_libraries(elvis_spdlog INTERFACE elvis_fmt Threads::Threads)
+add_library(elvis_spdlog STATIC "${CMAKE_CURRENT_LIST_DIR}/spdlog.cpp")
+set_target_properties(elvis_spdlog PROPERTIES UNITY_BUILD OFF)
+target_include_directories(elvis_spdlog SYSTEM PUBLIC $<TARGET_PROPERTY:spdlog::spdlog_header_only,INTERFACE_INCLUDE_DIRECTORIES>)
+target_compile_definitions(elvis_spdlog PUBLIC SPDLOG_COMPILED_LIB SPDLOG_FMT_EXTERNAL)
+target_link_libraries(elvis_spdlog PUBLIC elvis_fmt Threads::Threads)
 
 # What only programs and plugins are linked with, not libelvis: whoever uses that has the C++ library.
 add_library(elvis_standalone INTERFACE)

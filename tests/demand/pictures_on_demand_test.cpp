@@ -86,15 +86,15 @@ const NamedVolume all_volumes[] = {
 
 TEST_CASE("Planes show the same bits whether all elements are there or those that they need") {
     const NamedVolume& mixed = all_volumes[0];
-    for (const Precision precision : {Precision::float32, Precision::float64}) {
-        DemandStage stage(mixed.description, precision);
-        for (const NamedKeys& picture : plane_pictures) {
-            compare(mixed.name, stage, picture);
-        }
+    DemandStage single(mixed.description);
+    for (const NamedKeys& picture : plane_pictures) {
+        compare(mixed.name, single, picture);
     }
+    DemandStage in_double(mixed.description, Precision::float64);
+    compare(mixed.name, in_double, plane_pictures[0]);
     for (const NamedVolume& volume : std::span(all_volumes).subspan(1, 2)) {
         DemandStage stage(volume.description);
-        for (const NamedKeys& picture : std::span(plane_pictures).first(3)) {
+        for (const NamedKeys& picture : std::span(plane_pictures).first(2)) {
             compare(volume.name, stage, picture);
         }
     }
@@ -151,12 +151,12 @@ TEST_CASE("Boundaries show the same bits whether all elements are there or those
          R"("surfaces": [{"type": "boundary", "groups": ["z+"]}, {"type": "plane", "plane": [0, 1, 0.1, 0]}], "field": "2 * sinc + x",
             "color_map": {"name": "viridis", "range": [-1, 3]})"},
     };
-    for (const Precision precision : {Precision::float32, Precision::float64}) {
-        DemandStage stage(all_volumes[0].description, precision);
-        for (const NamedKeys& picture : pictures) {
-            compare(all_volumes[0].name, stage, picture);
-        }
+    DemandStage single(all_volumes[0].description);
+    for (const NamedKeys& picture : pictures) {
+        compare(all_volumes[0].name, single, picture);
     }
+    DemandStage in_double(all_volumes[0].description, Precision::float64);
+    compare(all_volumes[0].name, in_double, pictures[0]);
 }
 
 TEST_CASE("Isosurfaces show the same bits whether all elements are there or those that may hold an isovalue") {

@@ -117,13 +117,13 @@ std::string plan_of(const std::string& keys) { return R"~({"version": 1, "output
 
 } // namespace
 
-TEST_CASE("One to four ranks draw the bytes that elvis render draws in as many parts") {
+TEST_CASE("One, two and four ranks draw the bytes that elvis render draws in as many parts") {
     const Mesh mesh(waves);
     // Colours are said, and the camera stands where the whole volume is seen.
     mesh.write("scene.json", R"~({"version": 1, "volume": {"path": "whole.h5"}, "image": {"size": [96, 72]},
         "color_map": {"range": [-1, 1]}, "surfaces": [{"type": "plane", "plane": [1, 0.2, 0.1, 0.1],
         "mesh_lines": {}}, {"type": "boundary", "clip": [[0, 0, -1, 0]]}], "volume_rendering": {}})~");
-    for (const std::uint32_t n : {1u, 2u, 3u, 4u}) {
+    for (const std::uint32_t n : {1u, 2u, 4u}) {
         INFO(n << " ranks");
         REQUIRE(mesh.run("render scene.json --parts " + std::to_string(n) + " -o parts.png --buffers parts.h5").status == 0);
         const auto errors = errors_of(n, [&](const elvis_communicator& own) {

@@ -234,7 +234,7 @@ TEST_CASE("An isosurface that is stopped while ranges are asked for is the same 
     const TemporaryFolder folder;
     const Solver solver(make_volume(
         context, folder,
-        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 1, "order": 2, "geometry_order": 2, "field": "waves"})"));
+        R"({"generator": 1, "mesh": "ball", "shape": "prism", "elements": 1, "order": 2, "geometry_order": 2, "field": "waves"})"));
     elvis::scene scene = context.make_scene();
     scene.set("/image/size", "[32, 24]");
     scene.set("/surfaces/-", R"({"type": "isosurface", "values": [0.2]})");

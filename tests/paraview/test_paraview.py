@@ -63,15 +63,14 @@ class ParaView(unittest.TestCase):
         self.assertGreater(numpy.count_nonzero(alpha), 5000)
         return numpy.count_nonzero(numpy.abs(shown - expected).max(axis=2) > tolerance)
 
-    def test_pixels_are_those_of_elvis_on_one_to_three_ranks(self):
+    def test_pixels_are_those_of_elvis_on_one_and_on_three_ranks(self):
         pictures = []
-        for ranks in (1, 2, 3):
+        for ranks in (1, 3):
             path, said = self.draw("surfaces", ranks=ranks)
             with open(path, "rb") as file:
                 pictures.append(file.read())
         self.assertEqual(self.compare(path), 0)
         self.assertEqual(pictures[0], pictures[1])
-        self.assertEqual(pictures[0], pictures[2])
         scene = self.scene(path)
         self.assertEqual(len(scene["surfaces"]), 4)
         # The map and its range are ParaView's.

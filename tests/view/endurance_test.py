@@ -81,24 +81,26 @@ def do_all(window):
         window.settle()
 
 
-def keeps_its_size(elvis, display, folder, n_rounds=2):
+def keeps_its_size(elvis, display, folder, n_rounds=3):
+    """What grows in each round is lost. What grows in one, as when a slow machine shows other pictures before the last one, is not."""
     window = Window(elvis, display, folder, ["ball.h5", "--size", "800x600"])
     try:
         do_all(window)
-        first = memory(window)
+        sizes = [memory(window)]
         for _ in range(n_rounds):
             do_all(window)
-        last = memory(window)
+            sizes.append(memory(window))
     finally:
         window.close()
+    first, last = sizes[0], sizes[-1]
     for what in ("kernels", "buffers", "device"):
         require(last[what] == first[what], f"{what}: {first[what]}, and after the same things again {last[what]}")
-    growth = (last["heap"] - first["heap"]) / 2**20 / n_rounds
-    require(growth < MOST_GROWTH, f"the heap grows by {growth:.2f} MiB each time")
+    growths = [(after["heap"] - before["heap"]) / 2**20 for before, after in zip(sizes, sizes[1:])]
+    require(min(growths) < MOST_GROWTH, f"the heap grows each time, by {', '.join(f'{growth:.2f}' for growth in growths)} MiB")
     # What is free goes back to the system, but for what lies between pieces that are in use.
     resident = (last["resident"] - first["resident"]) / 2**20
     require(resident < 60, f"the program has grown by {resident:.0f} MiB")
-    print(f"{growth:.3f} MiB of the heap each time, {resident:.1f} MiB resident in all")
+    print(f"the heap has grown by {', '.join(f'{growth:.3f}' for growth in growths)} MiB, {resident:.1f} MiB are resident in all")
 
 
 def main(elvis, folder, plugin):

@@ -48,31 +48,32 @@ TEST_CASE("a plane has no hole in strongly bent pyramids") {
 }
 
 TEST_CASE("what a picture has found out about bent elements spares the next one work and no pixel") {
-    const auto [description, plane] = GENERATE(table<const char*, CutPlane>(
+    const auto [description, plane, precision] = GENERATE(table<const char*, CutPlane, Precision>(
         {{R"({"generator": 1, "mesh": "ball", "shape": "tetrahedron", "elements": [2, 2, 2], "geometry_order": 3, "order": 2,
              "field": "polynomial"})",
-          {{0.03, 0.02, 1, 0.05}}},
+          {{0.03, 0.02, 1, 0.05}},
+          Precision::float64},
          {R"({"generator": 1, "mesh": "torus", "shape": "pyramid", "elements": [3, 1, 4], "layers": 2, "geometry_order": 4,
              "order": 2, "field": "polynomial"})",
-          {{0.03, 0.02, 1, 0.05}}},
+          {{0.03, 0.02, 1, 0.05}},
+          Precision::float32},
          {R"({"generator": 1, "mesh": "torus", "shape": "hexahedron", "elements": [2, 2, 3], "geometry_order": 4, "order": 2,
              "field": "polynomial"})",
-          {{1, 0.4, 0.3, 0.1}}}}));
+          {{1, 0.4, 0.3, 0.1}},
+          Precision::float32}}));
     const TemporaryFile file("bent.h5");
     generate(description, file.path());
     const RuntimeVolume volume = open_volume(file.path());
     const Model model(read_volume(file.path()));
     const FrameRequest request = view_of(model, plane, 80, 80, 0, 3);
     const Picture exact = draw(model, request);
-    for (const Precision precision : {Precision::float32, Precision::float64}) {
-        Renderer renderer(device(), volume, precision);
-        const Frame first = renderer.render(request), second = renderer.render(request);
-        INFO(description << " " << name_of(precision));
-        CHECK(n_holes(exact, second) == 0);
-        CHECK(second.element == first.element);
-        CHECK(second.flags == first.flags);
-        CHECK(second.counts.newton_iterations < first.counts.newton_iterations);
-    }
+    Renderer renderer(device(), volume, precision);
+    const Frame first = renderer.render(request), second = renderer.render(request);
+    INFO(description << " " << name_of(precision));
+    CHECK(n_holes(exact, second) == 0);
+    CHECK(second.element == first.element);
+    CHECK(second.flags == first.flags);
+    CHECK(second.counts.newton_iterations < first.counts.newton_iterations);
 }
 
 } // namespace elvis::oracle

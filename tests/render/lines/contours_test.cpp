@@ -219,7 +219,7 @@ void check_polynomials(int n_polynomials) {
 } // namespace
 
 TEST_CASE("contours of random polynomials are right to the pixel, and more subdivision leaves fewer undecided") {
-    check_polynomials(5);
+    check_polynomials(3);
 }
 
 // Run by name: minutes.

@@ -183,7 +183,7 @@ TEST_CASE("boundary, cut plane, isosurfaces and volume lie in each other as alon
 TEST_CASE("what passes share changes no picture, but for the rounding of isosurfaces in front of what hides others") {
     const TemporaryFile file("shared.h5");
     generate(
-        R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": 2, "order": 2, "geometry_order": 2, "field": "waves"})",
+        R"({"generator": 1, "mesh": "ball", "shape": "prism", "elements": 2, "order": 2, "geometry_order": 2, "field": "waves"})",
         file.path());
     const RuntimeVolume volume = open_volume(file.path());
     FrameRequest request;
