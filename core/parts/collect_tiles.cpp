@@ -112,7 +112,6 @@ Frame unpacked_tiles(const TileShares& shares, const FrameRequest& request, Prec
 void drop_buffers(Frame& frame) {
     frame.value = frame.depth = frame.normal = {};
     frame.element = {};
-    frame.flags = {};
 }
 
 } // namespace

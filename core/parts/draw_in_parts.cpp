@@ -13,11 +13,14 @@
 #include <core/parts/shared_fold.hpp>
 #include <core/parts/whole_ranges.hpp>
 #include <core/render/bands.hpp>
+#include <core/render/picture/flags_pass.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
 #include <core/session/streamline_tubes.hpp>
+#include <core/session/supersampled.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -77,6 +80,11 @@ void ask_about_isosurfaces(const FrameRequest& request, WholeRanges& ranges) {
     throw Error(scene.volume, what + " cannot be drawn in parts yet; without --parts it can");
 }
 
+bool has_wide_lines(const Surface& surface) {
+    return (surface.contours && surface.contours->style.width > 1) ||
+           (surface.mesh_lines && surface.mesh_lines->style.width > 1);
+}
+
 void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
     for (const Surface& surface : request.surfaces) {
         if (surface.opacity < 1) {
@@ -93,8 +101,14 @@ void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
             (wires != nullptr && std::holds_alternative<ElementFaces>(wires->faces))) {
             refuse(scene, "the faces of chosen elements");
         }
+        // Both look at what is cut away beside a pixel, of which no part knows all.
         if (surface.lic && surface.is_see_through()) {
             refuse(scene, "line integral convolution with a threshold or with planes that cut the surface away");
+        }
+        if (surface.is_see_through() && (has_wide_lines(surface) || (surface.has_lines() && scene.samples > 1))) {
+            refuse(scene,
+                   "lines of several pixels, or with several samples a pixel, with a threshold or with planes that cut the "
+                   "surface away");
         }
     }
 }
@@ -105,6 +119,28 @@ std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_partition(order, [&](std::size_t index) { return !surfaces[index].is_see_through(); });
     return order;
+}
+
+/**
+ * Adds doubt about any of a pixel's samples to its flags and counts: between parts lines of a finer picture may be open where
+ * those of the picture itself are not. `rows`: of the finer picture.
+ */
+void add_doubts(const Frame& fine, const Rows& rows, std::uint32_t n, Frame& frame) {
+    constexpr std::uint32_t doubts = pixel_flag::undecided | pixel_flag::isosurface_undecided | pixel_flag::contour_undecided |
+                                     pixel_flag::mesh_line_undecided | pixel_flag::volume_tolerance;
+    std::vector<std::uint32_t> flags = frame.flags;
+    for (std::size_t sample = 0; sample < fine.flags.size(); ++sample) {
+        const std::size_t row = (rows.first + sample / fine.width) / n, column = sample % fine.width / n;
+        flags[row * frame.width + column] |= fine.flags[sample] & doubts;
+    }
+    std::array<std::uint32_t, 17> added{}; // As FlagsPass counts them: by bit, then those that show a surface.
+    for (std::size_t pixel = 0; pixel < flags.size(); ++pixel) {
+        for (std::uint32_t left = flags[pixel] & ~frame.flags[pixel]; left != 0; left &= left - 1) {
+            ++added[static_cast<std::size_t>(std::countr_zero(left))];
+        }
+    }
+    FlagsPass::add(added, frame.counts);
+    frame.flags = std::move(flags);
 }
 
 } // namespace
@@ -139,6 +175,7 @@ struct VolumeInParts::Impl {
     std::vector<double> shades(const FrameRequest& alone, SharedFold& fold);
     SharedFrame draw_surfaces(const FrameRequest& request, SharedFold& fold);
     Frame draw(const FrameRequest& request, bool with_buffers);
+    void take_means_of_finer(const FrameRequest& request, std::uint32_t n, std::uint32_t most_pixels, Frame& frame);
     std::vector<PartsWork> work_of_all();
 };
 
@@ -266,6 +303,24 @@ Frame VolumeInParts::Impl::draw(const FrameRequest& request, bool with_buffers) 
     return fold.collected(std::move(picture), with_buffers);
 }
 
+/** With several samples a pixel, colours are means of a finer picture, which is never in memory as a whole. */
+void VolumeInParts::Impl::take_means_of_finer(const FrameRequest& request, std::uint32_t n, std::uint32_t most_pixels,
+                                              Frame& frame) {
+    FrameRequest fine = finer(request, n);
+    fine.with_buffers = true; // Of what parts show, not of the picture.
+    const std::uint32_t unit = part_rows * n, n_rows = std::max(unit, most_pixels / std::max(1u, fine.width) / unit * unit);
+    const Frame of_means = render_band_by_band(
+        fine, n_rows, [this](const FrameRequest& band) { return draw(band, false); },
+        [&](const Frame& band, const Rows& rows) {
+            if (team.is_first()) {
+                take_means(band, rows, n, frame.color);
+                add_doubts(band, rows, n, frame);
+            }
+        });
+    frame.render_milliseconds += of_means.render_milliseconds;
+    frame.device_milliseconds += of_means.device_milliseconds;
+}
+
 std::vector<PartsWork> VolumeInParts::Impl::work_of_all() {
     work.rank = team.rank();
     work.device_bytes = 0;
@@ -317,7 +372,7 @@ void VolumeInParts::forget_fields(std::span<const std::uint32_t> fields) {
     m_impl->arrows.forget();
 }
 
-PartsPicture VolumeInParts::draw(const Scene& asked, bool with_buffers) {
+PartsPicture VolumeInParts::draw(const Scene& asked, bool with_buffers, std::uint32_t most_fine_pixels) {
     Impl& impl = *m_impl;
     need_parts_can_draw(asked);
     const Scene scene = impl.with_glyphs(asked);
@@ -332,6 +387,14 @@ PartsPicture VolumeInParts::draw(const Scene& asked, bool with_buffers) {
     }
     impl.share_ranges(request);
     picture.still.frame = impl.draw(request, with_buffers);
+    if (scene.samples > 1) {
+        const FoldWork of_picture = impl.work.fold;
+        impl.take_means_of_finer(request, scene.samples, most_fine_pixels, picture.still.frame);
+        impl.work.fold = of_picture;
+    }
+    if (!with_buffers) {
+        picture.still.frame.flags = {};
+    }
     picture.work = impl.work_of_all();
     std::uint64_t n_lit_pixels = 0;
     for (const PartsWork& of_rank : picture.work) {
@@ -358,9 +421,6 @@ void need_parts_can_draw(const Scene& scene) {
     }
     if (scene.memory) {
         refuse(scene, "a scene with a budget of memory ('memory')");
-    }
-    if (scene.samples > 1) {
-        refuse(scene, "several samples a pixel");
     }
 }
 

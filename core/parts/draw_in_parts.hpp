@@ -30,6 +30,7 @@ struct PartsWork {
     std::uint64_t n_parts = 0, n_own_elements = 0, n_elements = 0;
     /** On the device. */
     std::uint64_t device_bytes = 0;
+    /** Of the picture itself, not of more samples a pixel. */
     FoldWork fold{};
     /** Most that the process has had in memory so far; 0 if the system does not tell. */
     std::uint64_t peak_memory_bytes = 0;
@@ -65,9 +66,10 @@ public:
 
     /**
      * Throws Error for what cannot be drawn in parts (need_parts_can_draw). Without buffers the picture has colours and counts;
-     * the first process then gets less than half of the bytes.
+     * the first process then gets less than half of the bytes. Of several samples a pixel so many are in memory at once, whole
+     * rows of them.
      */
-    PartsPicture draw(const Scene& scene, bool with_buffers = true);
+    PartsPicture draw(const Scene& scene, bool with_buffers = true, std::uint32_t most_fine_pixels = 1u << 22);
 
     /** What this process had of the last picture. */
     const PartsWork& own_work() const;
@@ -80,8 +82,7 @@ private:
     std::unique_ptr<Impl> m_impl;
 };
 
-/** Throws Error if the scene has what is surely not drawn in parts: several volumes, a budget of memory, several samples a
- * pixel. */
+/** Throws Error if the scene has what is surely not drawn in parts: several volumes, a budget of memory. */
 void need_parts_can_draw(const Scene& scene);
 
 } // namespace elvis

@@ -174,9 +174,10 @@ private:
     }
 
     Vector3 point_seen(std::size_t pixel) const {
-        const PictureSize size{static_cast<double>(m_request.width), static_cast<double>(m_request.height)};
+        const PicturePart part = m_request.place();
+        const PictureSize size{static_cast<double>(m_request.width), static_cast<double>(part.of_height)};
         const PicturePoint place{static_cast<double>(m_block.first_column + pixel % m_block.width) + 0.5,
-                                 static_cast<double>(m_block.first_row + pixel / m_block.width) + 0.5};
+                                 static_cast<double>(part.first_row + m_block.first_row + pixel / m_block.width) + 0.5};
         return ray_through(m_request.camera, size, place).at(m_frame.depth[pixel]);
     }
 

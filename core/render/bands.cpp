@@ -39,7 +39,7 @@ Rows drawn_for(const Rows& kept, const FrameRequest& request) {
 FrameRequest request_for(const FrameRequest& whole, const Rows& rows) {
     FrameRequest request = whole;
     request.height = rows.end - rows.first;
-    request.part = {rows.first, whole.height};
+    request.part = PicturePart{whole.place().first_row + rows.first, whole.place().of_height};
     const auto take_rows = [&](std::shared_ptr<const std::vector<double>>& numbers) {
         if (numbers) {
             const auto own =

@@ -65,7 +65,7 @@ TEST_CASE("cells of the rind are left out", "[cgns]") {
     }
 }
 
-TEST_CASE("boundary conditions name elements or vertices; sections that none names are groups", "[cgns]") {
+TEST_CASE("boundary conditions name elements or vertices, and sections that none names are groups", "[cgns]") {
     const std::string container = GENERATE("hdf5", "adf");
     const TemporaryFolder folder;
     const SourceVolume source = open_cgns({write_cgns(folder, "boundaries", container)});

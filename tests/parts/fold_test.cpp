@@ -26,7 +26,7 @@ PartPixel seen(std::uint32_t pixel, std::int64_t element, double depth, bool is_
 
 } // namespace
 
-TEST_CASE("The nearest of what parts own is shown; where they do not agree it is undecided") {
+TEST_CASE("The nearest of what parts own is shown, and where they do not agree it is undecided") {
     FrameRequest request;
     request.width = 5;
     request.height = 1;

@@ -44,12 +44,12 @@ public:
         return draw_still(scene, *m_whole, *m_renderer, {}).frame;
     }
 
-    Frame in_parts(const Scene& scene, std::uint32_t n_parts) {
+    Frame in_parts(const Scene& scene, std::uint32_t n_parts, std::uint32_t most_fine_pixels = 1u << 22) {
         if (!m_parts || m_n_parts != n_parts) {
             m_parts = open_parts(Partition::in_shares(m_whole->n_elements(), n_parts));
             m_n_parts = n_parts;
         }
-        return m_parts->draw(scene).still.frame;
+        return m_parts->draw(scene, true, most_fine_pixels).still.frame;
     }
 
     std::unique_ptr<VolumeInParts> open_parts(Partition partition) {

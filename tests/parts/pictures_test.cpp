@@ -118,6 +118,36 @@ TEST_CASE("Surfaces in parts are those of the whole: a mixed mesh") {
     compare(stage, surfaces[3], 3);
 }
 
+TEST_CASE("Several samples a pixel in parts are those of the whole, in however many bands") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    const Scene scene = stage.scene(
+        R"("image": {"size": [80, 60], "samples": 3}, "lighting": "default", "contours": {"count": 5}, "volume_rendering": {},
+           "surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}, {"type": "isosurface", "values": [0.3]}])");
+    Scene plain = scene;
+    plain.samples = 1;
+    const Frame whole = stage.as_whole(scene), parts = stage.in_parts(scene, 3), bands = stage.in_parts(scene, 3, 240 * 48);
+    const Differences found = between(whole, parts), without = between(stage.as_whole(plain), parts);
+    std::printf("3 x 3 samples: colour is off in %zu of %zu pixels (%zu unflagged), and in %zu if there is one sample\n",
+                found.n_color, found.n_hit, found.n_silent, without.n_color);
+    CHECK(bands.color == parts.color);
+    CHECK(bands.flags == parts.flags);
+    CHECK(found.n_silent == 0);
+    CHECK(found.n_color <= found.n_hit / 100);
+    CHECK(parts.counts.undecided_contour_pixels ==
+          static_cast<std::size_t>(std::ranges::count_if(
+              parts.flags, [](std::uint32_t flags) { return (flags & pixel_flag::contour_undecided) != 0; })));
+    CHECK(without.n_color > 500);
+}
+
+TEST_CASE("Wide lines in parts are those of the whole, or flagged, and refused on what is cut away") {
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    const std::string lines = R"("image": {"size": [240, 180]}, "contours": {"count": 5, "width": 3}, "surfaces": [)";
+    const Scene scene = stage.scene(lines + R"({"type": "plane", "plane": [0.3, 0.25, 1, 0.05]}, {"type": "boundary"}])");
+    compare({"wide lines", ""}, 3, stage.as_whole(scene), stage.in_parts(scene, 3));
+    const Scene cut = stage.scene(lines + R"({"type": "boundary", "clip": [[-1, 0, 0, -0.1]]}])");
+    CHECK_THROWS_WITH(stage.in_parts(cut, 3), Catch::Contains("lines of several pixels"));
+}
+
 TEST_CASE("A plane in faces between parts shows the viewer's side") {
     // Layers of elements, each of which is a part, and a field that jumps between elements.
     Stage stage(R"({"generator": 1, "mesh": "box", "elements": [4, 4, 4], "field": "element"})");

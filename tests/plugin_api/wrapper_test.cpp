@@ -186,7 +186,7 @@ TEST_CASE("optional functions are in the table exactly if the class has them") {
     CHECK_FALSE(converter.get_time);
 }
 
-TEST_CASE("no exception leaves a call; each becomes its code and text") {
+TEST_CASE("no exception leaves a call, and each becomes its code and text") {
     std::uint32_t confidence = 0;
     CHECK(plain.probe(&host, "file", &confidence) == ELVIS_OK);
     CHECK(confidence == 42);
