@@ -81,7 +81,7 @@ TEST_CASE("One to four processes draw the bytes that one program draws in the sa
 
 TEST_CASE("Light, wide lines and streaks are the same by any number of processes, which share what is put together") {
     const MpiFolder folder;
-    folder.write("lines.json", R"~({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [96, 72]},
+    folder.write("lines.json", R"~({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [96, 72], "samples": 2},
         "surfaces": [{"type": "plane", "plane": [1, 0.2, 0, 0.1]}], "contours": {"count": 5, "width": 3}, "mesh_lines": {},
         "lic": {"length": 6, "field": "y*grad(x) - x*grad(y)"}, "lighting": "default"})~");
     for (const auto& [scene, counts] :
