@@ -13,14 +13,12 @@
 #include <core/parts/shared_fold.hpp>
 #include <core/parts/whole_ranges.hpp>
 #include <core/render/bands.hpp>
-#include <core/render/picture/flags_pass.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>
 #include <core/session/streamline_tubes.hpp>
 #include <core/session/supersampled.hpp>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -119,28 +117,6 @@ std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_partition(order, [&](std::size_t index) { return !surfaces[index].is_see_through(); });
     return order;
-}
-
-/**
- * Adds doubt about any of a pixel's samples to its flags and counts: between parts lines of a finer picture may be open where
- * those of the picture itself are not. `rows`: of the finer picture.
- */
-void add_doubts(const Frame& fine, const Rows& rows, std::uint32_t n, Frame& frame) {
-    constexpr std::uint32_t doubts = pixel_flag::undecided | pixel_flag::isosurface_undecided | pixel_flag::contour_undecided |
-                                     pixel_flag::mesh_line_undecided | pixel_flag::volume_tolerance;
-    std::vector<std::uint32_t> flags = frame.flags;
-    for (std::size_t sample = 0; sample < fine.flags.size(); ++sample) {
-        const std::size_t row = (rows.first + sample / fine.width) / n, column = sample % fine.width / n;
-        flags[row * frame.width + column] |= fine.flags[sample] & doubts;
-    }
-    std::array<std::uint32_t, 17> added{}; // As FlagsPass counts them: by bit, then those that show a surface.
-    for (std::size_t pixel = 0; pixel < flags.size(); ++pixel) {
-        for (std::uint32_t left = flags[pixel] & ~frame.flags[pixel]; left != 0; left &= left - 1) {
-            ++added[static_cast<std::size_t>(std::countr_zero(left))];
-        }
-    }
-    FlagsPass::add(added, frame.counts);
-    frame.flags = std::move(flags);
 }
 
 } // namespace
@@ -303,7 +279,10 @@ Frame VolumeInParts::Impl::draw(const FrameRequest& request, bool with_buffers) 
     return fold.collected(std::move(picture), with_buffers);
 }
 
-/** With several samples a pixel, colours are means of a finer picture, which is never in memory as a whole. */
+/**
+ * With several samples a pixel, colours are means of a finer picture, which is never in memory as a whole. Between parts its
+ * lines may be open where those of the picture itself are not: doubt is taken, too.
+ */
 void VolumeInParts::Impl::take_means_of_finer(const FrameRequest& request, std::uint32_t n, std::uint32_t most_pixels,
                                               Frame& frame) {
     FrameRequest fine = finer(request, n);
@@ -314,7 +293,7 @@ void VolumeInParts::Impl::take_means_of_finer(const FrameRequest& request, std::
         [&](const Frame& band, const Rows& rows) {
             if (team.is_first()) {
                 take_means(band, rows, n, frame.color);
-                add_doubts(band, rows, n, frame);
+                take_doubts(band, rows, n, frame);
             }
         });
     frame.render_milliseconds += of_means.render_milliseconds;

@@ -1,5 +1,7 @@
 #include <core/session/supersampled.hpp>
 
+#include <core/render/picture/count_pixels.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -70,6 +72,19 @@ void take_means(const Frame& fine, const Rows& rows, std::uint32_t n, std::vecto
         for (std::size_t column = 0; column < width; ++column) {
             const std::array<double, n_color_channels> own = mean(fine, row * n - rows.first, column * n, n);
             std::copy(own.begin(), own.end(), &color[n_color_channels * (row * width + column)]);
+        }
+    }
+}
+
+void take_doubts(const Frame& fine, const Rows& rows, std::uint32_t n, Frame& frame) {
+    constexpr std::uint32_t doubts = pixel_flag::newton_failure | pixel_flag::isosurface_undecided |
+                                     pixel_flag::volume_tolerance | pixel_flag::undecided | pixel_flag::contour_undecided |
+                                     pixel_flag::mesh_line_undecided | pixel_flag::work_limit | pixel_flag::estimated |
+                                     pixel_flag::overlap;
+    for (std::size_t sample = 0; sample < fine.flags.size(); ++sample) {
+        if (const std::uint32_t flags = fine.flags[sample] & doubts; flags != 0) {
+            const std::size_t row = (rows.first + sample / fine.width) / n, column = sample % fine.width / n;
+            add_flags(frame, row * frame.width + column, flags);
         }
     }
 }

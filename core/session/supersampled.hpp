@@ -21,6 +21,9 @@ FrameRequest finer(const FrameRequest& request, std::uint32_t n);
  */
 void take_means(const Frame& fine, const Rows& rows, std::uint32_t n, std::vector<double>& color);
 
+/** Adds doubt about any of a pixel's samples to the flags and counts of the coarse picture. */
+void take_doubts(const Frame& fine, const Rows& rows, std::uint32_t n, Frame& frame);
+
 struct SupersampledColors {
     /** As Frame::color, of the request's size. */
     std::vector<double> color;

@@ -8,12 +8,30 @@
 
 namespace elvis {
 
+namespace {
+
+/** As FlagsPass counts them: by bit, then those that show a surface. */
+using Found = std::array<std::uint32_t, 17>;
+
+void count_bits(std::uint32_t flags, Found& found) {
+    for (std::uint32_t left = flags; left != 0; left &= left - 1) {
+        ++found[static_cast<std::size_t>(std::countr_zero(left))];
+    }
+}
+
+} // namespace
+
+void add_flags(Frame& frame, std::size_t pixel, std::uint32_t flags) {
+    Found added{};
+    count_bits(flags & ~frame.flags[pixel], added);
+    FlagsPass::add(added, frame.counts);
+    frame.flags[pixel] |= flags;
+}
+
 void count_pixels(Frame& frame) {
-    std::array<std::uint32_t, 17> found{}; // As FlagsPass counts them: by bit, then those that show a surface.
+    Found found{};
     for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
-        for (std::uint32_t left = frame.flags[pixel]; left != 0; left &= left - 1) {
-            ++found[static_cast<std::size_t>(std::countr_zero(left))];
-        }
+        count_bits(frame.flags[pixel], found);
         found.back() += frame.element[pixel] >= 0 ? 1 : 0;
     }
     FrameCounts& counts = frame.counts;

@@ -6,7 +6,13 @@
 
 #include <core/render/frame.hpp>
 
+#include <cstddef>
+#include <cstdint>
+
 namespace elvis {
+
+/** Adds flags to those of a pixel, and counts it by such as it did not have. */
+void add_flags(Frame& frame, std::size_t pixel, std::uint32_t flags);
 
 /** Sets what is counted of pixels, from the frame's flags and elements; what is counted of work stays. */
 void count_pixels(Frame& frame);
