@@ -12,7 +12,7 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 2;
+constexpr int n_combined_runs = 2;
 
 struct Part {
     std::string name;
@@ -59,7 +59,7 @@ std::vector<Part> parts_of(const std::array<double, 6>& bounds, const FieldRange
 CombinedRow measure(Renderer& renderer, const FrameRequest& request, const std::string& name, Frame& frame) {
     CombinedRow row;
     row.name = name;
-    RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+    RepeatedFrame repeated = render_repeatedly(renderer, request, n_combined_runs);
     row.milliseconds = repeated.milliseconds;
     row.wall_milliseconds = repeated.wall_milliseconds;
     frame = std::move(repeated.frame);

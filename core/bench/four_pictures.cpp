@@ -14,7 +14,7 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 3;
+constexpr int n_picture_runs = 3;
 
 struct View {
     std::array<double, 6> bounds{};
@@ -86,7 +86,7 @@ void bench_four_pictures(const Device& device, const PluginRegistry& registry, c
     const RuntimeVolume opened(registry.runtime_for(volume), volume);
     Renderer renderer(device, opened, Precision::float32);
     for (const NamedFrame& picture : four_pictures(renderer, size)) {
-        const RepeatedFrame repeated = render_repeatedly(renderer, picture.request, n_runs);
+        const RepeatedFrame repeated = render_repeatedly(renderer, picture.request, n_picture_runs);
         const FrameCounts& counts = repeated.frame.counts;
         report({picture.name, picture.request.width, repeated.milliseconds, repeated.wall_milliseconds, counts,
                 std::max(counts.hit_pixels, counts.volume_pixels)});

@@ -13,7 +13,7 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 9;
+constexpr int n_goal_runs = 9;
 
 constexpr std::uint32_t full_width = 1800;
 
@@ -58,7 +58,7 @@ FrameRequest volume_itself(std::uint32_t width, const std::array<double, 6>& bou
 void draw(const Device& device, Renderer& renderer, const FrameRequest& request, GoalRow& row) {
     renderer.render(request);
     const std::map<std::string, double> first = device_times(device);
-    for (int run = 0; run < n_runs; ++run) {
+    for (int run = 0; run < n_goal_runs; ++run) {
         const std::optional<double> before = busy_milliseconds(device);
         const Frame frame = renderer.render(request);
         const double wall = frame.render_milliseconds;
@@ -71,7 +71,7 @@ void draw(const Device& device, Renderer& renderer, const FrameRequest& request,
     }
     for (const auto& [name, milliseconds] : device_times(device)) {
         const auto before = first.find(name);
-        const double part = (milliseconds - (before != first.end() ? before->second : 0)) / n_runs;
+        const double part = (milliseconds - (before != first.end() ? before->second : 0)) / n_goal_runs;
         if (part > 0) {
             row.parts[name] = part;
         }

@@ -11,13 +11,13 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 3;
-constexpr std::uint32_t geometry_order = 1;
+constexpr int n_growth_runs = 3;
+constexpr std::uint32_t growth_geometry_order = 1;
 
 RuntimeVolume straight_waves(const PluginRegistry& registry, const BenchFolder& folder, std::uint32_t n, std::uint32_t order) {
     return generated_volume(registry, folder, "straight-waves-" + std::to_string(n) + "-order-" + std::to_string(order),
                             R"({"generator":1,"mesh":"waves","shape":"hexahedron","field":"waves","geometry_order":)" +
-                                std::to_string(geometry_order) + R"(,"elements":)" + std::to_string(n) + R"(,"order":)" +
+                                std::to_string(growth_geometry_order) + R"(,"elements":)" + std::to_string(n) + R"(,"order":)" +
                                 std::to_string(order) + "}");
 }
 
@@ -38,7 +38,7 @@ GrowthRow measure(const Device& device, const RuntimeVolume& volume, const Frame
     Renderer renderer(device, volume, Precision::float32);
     renderer.render(request);
     row.first_milliseconds = milliseconds_since(start);
-    const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+    const RepeatedFrame repeated = render_repeatedly(renderer, request, n_growth_runs);
     const FrameCounts& counts = repeated.frame.counts;
     row.milliseconds = repeated.milliseconds;
     row.wall_milliseconds = repeated.wall_milliseconds;
@@ -75,7 +75,7 @@ void bench_growth(const Device& device, const PluginRegistry& registry, const Be
                 row.n_elements = volume.n_elements();
                 row.order = order;
                 row.first_milliseconds += opening;
-                row.n_coefficients = row.n_elements * (cube(order + 1) + 3 * cube(geometry_order + 1));
+                row.n_coefficients = row.n_elements * (cube(order + 1) + 3 * cube(growth_geometry_order + 1));
                 report(row);
             }
         }

@@ -18,7 +18,7 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t geometry_order = 1, field_order = 2;
+constexpr std::uint32_t mesh_order = 1, field_order = 2;
 const std::string place = "elvis bench interface";
 
 std::uint32_t first_scalar(const RuntimeVolume& volume) {
@@ -41,7 +41,7 @@ void check_class(const RuntimeVolume& volume, std::uint32_t element_class, const
     }
     const std::map<std::string, std::int64_t> constants(instance.constants.begin(), instance.constants.end());
     for (const char* direction : {"P", "Q", "R"}) {
-        if (constants.at(std::string("NATIVE_GEOMETRY_") + direction) != geometry_order ||
+        if (constants.at(std::string("NATIVE_GEOMETRY_") + direction) != mesh_order ||
             constants.at(std::string("NATIVE_FIELD_") + direction) != field_order) {
             throw Error(place, name + " has other orders than 1 of the geometry and 2 of the field");
         }

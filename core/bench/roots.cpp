@@ -19,7 +19,7 @@ namespace {
 using segment::Polynomial;
 
 constexpr int least_degree = 2, most_degree = 12;
-constexpr std::uint32_t group_size = 64;
+constexpr std::uint32_t roots_group_size = 64;
 /** Lanes of a subgroup, in which times are given. */
 constexpr double n_lanes = 8;
 constexpr double no_root = 2;
@@ -130,7 +130,7 @@ Answers on_device(const Device& device, const std::vector<Polynomial<double>>& p
     const std::array<const Buffer*, 2> bindings{&input, &output};
     const auto run = [&](std::uint32_t count) {
         const DeviceTimer timer(device);
-        kernel.dispatch(bindings, std::as_bytes(std::span(&count, 1)), (count + group_size - 1) / group_size);
+        kernel.dispatch(bindings, std::as_bytes(std::span(&count, 1)), (count + roots_group_size - 1) / roots_group_size);
         return 1e6 * timer.milliseconds() * timer.n_processors();
     };
     // Drivers compile at the first dispatch.

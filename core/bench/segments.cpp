@@ -6,7 +6,7 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 3;
+constexpr int n_segment_runs = 3;
 
 } // namespace
 
@@ -27,7 +27,7 @@ void bench_segments(const Device& device, const PluginRegistry& registry, const 
                 result.elements_a_side = n;
                 result.size = size;
                 result.precision = precision;
-                for (int run = 0; run < n_runs; ++run) {
+                for (int run = 0; run < n_segment_runs; ++run) {
                     SegmentCounts counts;
                     pass.lengths(view, {picture.camera.eye, {}}, size, size, counts);
                     const bool is_least = run == 0 || counts.milliseconds < result.milliseconds;

@@ -7,7 +7,7 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 9;
+constexpr int n_surface_runs = 9;
 FrameRequest picture(BenchView view, std::uint32_t size) {
     switch (view) {
     case BenchView::cut_plane:
@@ -36,7 +36,7 @@ void bench_surface(const Device& device, const PluginRegistry& registry, const B
                 result.elements_a_side = n;
                 result.order = order;
                 result.size = size;
-                const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+                const RepeatedFrame repeated = render_repeatedly(renderer, request, n_surface_runs);
                 const Frame& frame = repeated.frame;
                 result.milliseconds = repeated.milliseconds;
                 result.wall_milliseconds = repeated.wall_milliseconds;

@@ -14,7 +14,7 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 5;
+constexpr int n_surfaces_runs = 5;
 
 /** Ten values that the waves field takes on its cut plane, none of them its value along a line by symmetry. */
 Contours ten_contours() {
@@ -66,10 +66,11 @@ std::vector<std::pair<std::string, FrameRequest>> kinds(std::uint32_t size) {
             {"boundary", waves_boundary(size)}};
 }
 
-class Bench {
+class SurfacesBench {
 public:
-    Bench(const Device& device, const PluginRegistry& registry, const BenchFolder& folder, const SurfacesOptions& options,
-          double unit_nanoseconds, const std::function<void(const SurfacesRow&)>& report)
+    SurfacesBench(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
+                  const SurfacesOptions& options, double unit_nanoseconds,
+                  const std::function<void(const SurfacesRow&)>& report)
         : m_device(device), m_registry(registry), m_folder(folder), m_options(options), m_unit(unit_nanoseconds),
           m_report(report) {}
 
@@ -132,7 +133,7 @@ private:
         row.order = order;
         row.size = request.width;
         row.subdivisions = request.surfaces[0].subdivisions;
-        const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+        const RepeatedFrame repeated = render_repeatedly(renderer, request, n_surfaces_runs);
         const Frame& frame = repeated.frame;
         row.milliseconds = repeated.milliseconds;
         row.wall_milliseconds = repeated.wall_milliseconds;
@@ -188,11 +189,11 @@ private:
     std::map<std::string, std::size_t> m_index;
 };
 
-using Number = std::function<double(const SurfacesRow&)>;
+using SurfacesNumber = std::function<double(const SurfacesRow&)>;
 
 /** One line a surface. */
-std::vector<PlotSeries> lines(const std::vector<SurfacesRow>& rows, const std::string& series, const Number& x,
-                              const Number& y) {
+std::vector<PlotSeries> lines(const std::vector<SurfacesRow>& rows, const std::string& series, const SurfacesNumber& x,
+                              const SurfacesNumber& y) {
     SeriesByName result;
     for (const SurfacesRow& row : rows) {
         if (row.series == series) {
@@ -203,7 +204,7 @@ std::vector<PlotSeries> lines(const std::vector<SurfacesRow>& rows, const std::s
 }
 
 /** Memory of the pictures of one surface, by what it is for. */
-std::vector<PlotSeries> memory_lines(const std::vector<SurfacesRow>& rows, const std::string& series, const Number& x) {
+std::vector<PlotSeries> memory_lines(const std::vector<SurfacesRow>& rows, const std::string& series, const SurfacesNumber& x) {
     constexpr double megabyte = 1e6;
     SeriesByName result;
     for (const SurfacesRow& row : rows) {
@@ -223,7 +224,7 @@ std::vector<PlotSeries> memory_lines(const std::vector<SurfacesRow>& rows, const
 std::vector<SurfacesRow> bench_surfaces(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
                                         const SurfacesOptions& options, double unit_nanoseconds,
                                         const std::function<void(const SurfacesRow&)>& report) {
-    Bench bench(device, registry, folder, options, unit_nanoseconds, report);
+    SurfacesBench bench(device, registry, folder, options, unit_nanoseconds, report);
     bench.vary_subdivisions();
     bench.vary_size();
     bench.vary_order();
@@ -252,10 +253,10 @@ void write_surfaces(const std::filesystem::path& folder, const std::vector<Surfa
     draw("undecided-by-subdivisions", "Undecided contour pixels", limit, {"pixels", true}, undecided.series);
     draw("time-by-subdivisions", "Time of ten contours", limit, {"time / U", false}, subdivision_time.series);
 
-    const Number size = [](const SurfacesRow& row) { return static_cast<double>(row.size); };
-    const Number order = [](const SurfacesRow& row) { return static_cast<double>(row.order); };
-    const Number elements = [](const SurfacesRow& row) { return static_cast<double>(row.n_elements); };
-    const Number units = [](const SurfacesRow& row) { return row.units; };
+    const SurfacesNumber size = [](const SurfacesRow& row) { return static_cast<double>(row.size); };
+    const SurfacesNumber order = [](const SurfacesRow& row) { return static_cast<double>(row.order); };
+    const SurfacesNumber elements = [](const SurfacesRow& row) { return static_cast<double>(row.n_elements); };
+    const SurfacesNumber units = [](const SurfacesRow& row) { return row.units; };
     const PlotAxis size_axis{"side of the picture (pixels)", false};
     const PlotAxis order_axis{"order of the field", false};
     const PlotAxis elements_axis{"elements", true};

@@ -11,10 +11,10 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 8;
+constexpr std::uint32_t unit_group_size = 8;
 constexpr std::uint32_t n_groups = 4096;
 constexpr std::uint32_t values_an_invocation = 16;
-constexpr int n_runs = 7;
+constexpr int n_unit_runs = 7;
 
 struct Parameters {
     std::uint32_t n_elements;
@@ -34,14 +34,14 @@ UnitResult bench_unit(const Device& device, const PluginRegistry& registry, cons
     request.bindings = {{0, BindingType::storage_buffer}};
     request.push_constant_bytes = sizeof(Parameters);
     const ComposedKernel kernel(device, request);
-    const Buffer output(device, n_groups * group_size * sizeof(float));
+    const Buffer output(device, n_groups * unit_group_size * sizeof(float));
     const std::array<const Buffer*, 1> bindings = {&output};
 
     // The difference of two lengths leaves out what a dispatch and the loop cost.
     const auto run = [&](std::uint32_t n_values) {
         const Parameters parameters{static_cast<std::uint32_t>(volume.n_elements()), n_values};
         double least = 0;
-        for (int i = 0; i < n_runs; ++i) {
+        for (int i = 0; i < n_unit_runs; ++i) {
             const DeviceTimer timer(device);
             kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), n_groups);
             const double time = timer.milliseconds() * timer.n_processors();
@@ -52,7 +52,7 @@ UnitResult bench_unit(const Device& device, const PluginRegistry& registry, cons
     run(1);
     const double difference = run(1 + values_an_invocation) - run(1);
     const std::uint64_t n_values = std::uint64_t{n_groups} * values_an_invocation;
-    return {1e6 * difference / static_cast<double>(n_values), n_values * group_size};
+    return {1e6 * difference / static_cast<double>(n_values), n_values * unit_group_size};
 }
 
 } // namespace elvis

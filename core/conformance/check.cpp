@@ -54,6 +54,12 @@ void Context::need_runtime_volume() {
     }
 }
 
+RuntimeVolume open_volume(Context& context) {
+    context.need_runtime_volume();
+    context.progress("open");
+    return RuntimeVolume(context.plugin(), context.subject().files.front(), context.subject().options);
+}
+
 void Context::need_source() {
     if (!plugin()->converter()) {
         throw NotApplicable("the plugin converts no files");

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/runtime_volume.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -82,6 +83,9 @@ struct Check {
     const char* about;
     void (*run)(Context&);
 };
+
+/** The subject's first file, opened by the plugin's runtime interface; throws as need_runtime_volume() does. */
+RuntimeVolume open_volume(Context& context);
 
 /** All checks, in the order in which they are run and listed. */
 const std::vector<Check>& all_checks();

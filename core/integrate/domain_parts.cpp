@@ -14,7 +14,7 @@ namespace elvis {
 namespace {
 
 /** Elements whose boxes or ranges are asked of the plugin at once. */
-constexpr std::uint64_t block = 4096;
+constexpr std::uint64_t elements_at_once = 4096;
 
 std::vector<DomainPart> all_elements(const RuntimeVolume& volume) {
     std::vector<DomainPart> parts;
@@ -65,7 +65,7 @@ bool box_meets(std::span<const double> box, const std::array<double, 4>& plane) 
     return lower <= rounding && upper >= -rounding;
 }
 
-/** Ranges of a field's component, block by block, when asked for in the order of elements. */
+/** Ranges of a field's component, elements_at_once by elements_at_once, when asked for in the order of elements. */
 class Ranges {
 public:
     Ranges(const RuntimeVolume& volume, const Expression::PlainField& field, std::uint32_t time_step)
@@ -74,7 +74,7 @@ public:
     const FieldRange& of(std::uint64_t element) {
         if (element - m_first >= m_ranges.size() / m_n_components) {
             m_first = element;
-            const std::uint64_t count = std::min(block, m_volume.n_elements() - element);
+            const std::uint64_t count = std::min(elements_at_once, m_volume.n_elements() - element);
             m_ranges.resize(count * m_n_components);
             m_is_certified = m_volume.field_ranges(m_field.field, m_time_step, element, count, m_ranges) == ELVIS_CERTIFIED;
         }

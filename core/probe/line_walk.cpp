@@ -23,13 +23,6 @@ constexpr double outside = 1e-12;
 /** Points of a box of an element that are looked at for where the line enters it. */
 constexpr int n_entry_points = 32;
 
-Vector3 product(const std::array<double, 9>& matrix, const Vector3& v) {
-    return {matrix[0] * v[0] + matrix[1] * v[1] + matrix[2] * v[2], matrix[3] * v[0] + matrix[4] * v[1] + matrix[5] * v[2],
-            matrix[6] * v[0] + matrix[7] * v[1] + matrix[8] * v[2]};
-}
-
-double largest(const Vector3& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
-
 /** The part of the line, from 0 to 1, that lies in the box of an element. */
 struct BoxSpan {
     std::uint64_t element = 0;

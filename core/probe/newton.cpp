@@ -33,16 +33,12 @@ constexpr double damped_excess = 0.125;
 constexpr int settled_outside = 4;
 constexpr double settled_share = 0.125;
 
-double largest(const Vector3& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
-
 Vector3 midpoint(const Vector3& a, const Vector3& b) {
     return {std::midpoint(a[0], b[0]), std::midpoint(a[1], b[1]), std::midpoint(a[2], b[2])};
 }
 
-double dot(const double* row, const Vector3& v) { return row[0] * v[0] + row[1] * v[1] + row[2] * v[2]; }
-
 // One start, on its way.
-struct Search {
+struct NewtonSearch {
     Inversion::Outcome outcome = Inversion::Outcome::failed;
     Vector3 xi = nowhere;
     double excess = 0;
@@ -56,8 +52,8 @@ struct Search {
     std::array<double, 9> inverse{};
 };
 
-Search begin_search(elvis_shape shape, const Vector3& start) {
-    Search search;
+NewtonSearch begin_search(elvis_shape shape, const Vector3& start) {
+    NewtonSearch search;
     search.prediction = start;
     search.point = project_into_shape(shape, start);
     return search;
@@ -66,7 +62,7 @@ Search begin_search(elvis_shape shape, const Vector3& start) {
 // One step, with what the mapping is at search.point. With `is_damped`, steps towards a prediction that is clearly outside go
 // half the way: on strongly curved elements whole ones can lead from one side to the other and back.
 void advance(elvis_shape shape, const Vector3& target, const double* position, const double* jacobian, bool is_damped,
-             Search& search) {
+             NewtonSearch& search) {
     std::array<double, 9> matrix{};
     std::copy_n(jacobian, 9, matrix.begin());
     search.inverse = invert_matrix(matrix);
@@ -110,7 +106,7 @@ void advance(elvis_shape shape, const Vector3& target, const double* position, c
     }
 }
 
-void end_search(elvis_shape shape, Search& search) {
+void end_search(elvis_shape shape, NewtonSearch& search) {
     // Predictions that never settle but always point out of the shape.
     if (!search.is_over && search.n_outside >= max_steps / 2) {
         search.outcome = Inversion::Outcome::outside;
@@ -118,9 +114,9 @@ void end_search(elvis_shape shape, Search& search) {
     }
 }
 
-Search search_from(elvis_shape shape, const MappingFunction& mapping, const Vector3& target, const Vector3& start,
-                   bool is_damped) {
-    Search search = begin_search(shape, start);
+NewtonSearch search_from(elvis_shape shape, const MappingFunction& mapping, const Vector3& target, const Vector3& start,
+                         bool is_damped) {
+    NewtonSearch search = begin_search(shape, start);
     for (int step = 0; step < max_steps && !search.is_over; ++step) {
         Vector3 position{};
         std::array<double, 9> jacobian{};
@@ -132,9 +128,9 @@ Search search_from(elvis_shape shape, const MappingFunction& mapping, const Vect
 }
 
 // All targets at once: a step evaluates the mapping at the points of all that are not over.
-std::vector<Search> search_together(elvis_shape shape, const MappingFunction& mapping, std::span<const Vector3> targets) {
+std::vector<NewtonSearch> search_together(elvis_shape shape, const MappingFunction& mapping, std::span<const Vector3> targets) {
     const SearchStarts starts(shape, mapping, targets.size());
-    std::vector<Search> searches;
+    std::vector<NewtonSearch> searches;
     searches.reserve(targets.size());
     for (const Vector3& target : targets)
         searches.push_back(begin_search(shape, starts.start(target)));
@@ -152,7 +148,7 @@ std::vector<Search> search_together(elvis_shape shape, const MappingFunction& ma
             advance(shape, targets[active[k]], &positions[3 * k], &jacobians[9 * k], false, searches[active[k]]);
         std::erase_if(active, [&](std::size_t i) { return searches[i].is_over; });
     }
-    for (Search& search : searches)
+    for (NewtonSearch& search : searches)
         end_search(shape, search);
     return searches;
 }
@@ -198,7 +194,7 @@ Vector3 triple(const std::vector<double>& numbers, std::size_t index) {
 }
 
 // The search has settled outside, and the mapping is so near to its linear model that no other start can end elsewhere.
-bool is_surely_outside(const Search& search, Lattice& lattice) {
+bool is_surely_outside(const NewtonSearch& search, Lattice& lattice) {
     if (search.outcome != Inversion::Outcome::outside)
         return false;
     const double *const points = lattice.points().data(), *const positions = lattice.positions().data();
@@ -233,13 +229,13 @@ std::vector<Vector3> nearest_starts(Lattice& lattice, const Vector3& target) {
 }
 
 // Goes on from other starts where the first one does not decide.
-Inversion decided(elvis_shape shape, const MappingFunction& mapping, const Vector3& target, const Search& first,
+Inversion decided(elvis_shape shape, const MappingFunction& mapping, const Vector3& target, const NewtonSearch& first,
                   Lattice& lattice) {
     if (first.outcome == Inversion::Outcome::inside || is_surely_outside(first, lattice))
         return {first.outcome, first.xi};
     bool is_outside = first.outcome == Inversion::Outcome::outside;
     for (const Vector3& start : nearest_starts(lattice, target)) {
-        const Search next = search_from(shape, mapping, target, start, true);
+        const NewtonSearch next = search_from(shape, mapping, target, start, true);
         if (next.outcome == Inversion::Outcome::inside)
             return {next.outcome, next.xi};
         is_outside = is_outside || next.outcome == Inversion::Outcome::outside;
@@ -274,7 +270,7 @@ Inversion invert_mapping(elvis_shape shape, const MappingFunction& mapping, cons
 }
 
 std::vector<Inversion> invert_mapping(elvis_shape shape, const MappingFunction& mapping, std::span<const Vector3> targets) {
-    const std::vector<Search> searches = search_together(shape, mapping, targets);
+    const std::vector<NewtonSearch> searches = search_together(shape, mapping, targets);
     Lattice lattice(shape, mapping);
     std::vector<Inversion> inversions;
     inversions.reserve(targets.size());

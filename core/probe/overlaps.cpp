@@ -40,16 +40,11 @@ constexpr double clearly_outside = 0.5;
 /** The same nearer to the point, after a step of Newton's method. */
 constexpr double surely_outside = 0.1;
 constexpr int most_steps = 12;
-constexpr double converged_step = 1e-7;
+constexpr double converged_overlap_step = 1e-7;
 
 using Jacobian = std::array<double, 9>;
 
 Vector3 between(const Vector3& a, const Vector3& b, double share) { return plus(a, scaled(minus(b, a), share)); }
-
-Vector3 product(const Jacobian& matrix, const Vector3& v) {
-    return {matrix[0] * v[0] + matrix[1] * v[1] + matrix[2] * v[2], matrix[3] * v[0] + matrix[4] * v[1] + matrix[5] * v[2],
-            matrix[6] * v[0] + matrix[7] * v[1] + matrix[8] * v[2]};
-}
 
 Vector3 middle(std::span<const Vector3> points) {
     Vector3 sum{};
@@ -103,10 +98,10 @@ struct Samples {
     std::vector<Vector3> points;
 };
 
-class Search {
+class OverlapSearch {
 public:
-    Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
-           const TaskControl* control);
+    OverlapSearch(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
+                  const TaskControl* control);
 
     std::vector<std::uint64_t> find();
 
@@ -138,8 +133,8 @@ private:
     std::atomic<bool> m_has_any = false;
 };
 
-Search::Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
-               const TaskControl* control)
+OverlapSearch::OverlapSearch(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies, Background& background,
+                             const TaskControl* control)
     : m_volume(volume), m_background(background), m_control(control), m_hierarchies(hierarchies),
       m_centroids(volume.n_elements()), m_is_marked(volume.n_elements(), 0) {
     std::vector<std::vector<std::uint32_t>> links = read_face_links(volume);
@@ -152,7 +147,7 @@ Search::Search(const RuntimeVolume& volume, std::span<const Hierarchy* const> hi
     }
 }
 
-std::vector<std::uint64_t> Search::find() {
+std::vector<std::uint64_t> OverlapSearch::find() {
     for (const SampledClass& sampled : m_classes) {
         look_at_faces(sampled, false);
     }
@@ -170,7 +165,7 @@ std::vector<std::uint64_t> Search::find() {
     return elements;
 }
 
-void Search::linearize(const ClassInfo& info, std::uint64_t first, std::uint64_t count) {
+void OverlapSearch::linearize(const ClassInfo& info, std::uint64_t first, std::uint64_t count) {
     const Vector3 centroid = reference_centroid(info.shape);
     m_first_linearized = first;
     m_jacobians.resize(count);
@@ -182,7 +177,7 @@ void Search::linearize(const ClassInfo& info, std::uint64_t first, std::uint64_t
 }
 
 /** Neighbours that lie on the same side of the face that they share. */
-void Search::look_at_links(std::uint64_t element, elvis_shape shape, std::span<const std::uint32_t> links) {
+void OverlapSearch::look_at_links(std::uint64_t element, elvis_shape shape, std::span<const std::uint32_t> links) {
     const Vector3 centroid = reference_centroid(shape);
     const Vector3& position = m_centroids[element];
     const Jacobian inverse = invert_matrix(m_jacobians[element - m_first_linearized]);
@@ -198,7 +193,7 @@ void Search::look_at_links(std::uint64_t element, elvis_shape shape, std::span<c
     }
 }
 
-void Search::look_at_faces(const SampledClass& in, bool of_all) {
+void OverlapSearch::look_at_faces(const SampledClass& in, bool of_all) {
     for (std::uint64_t first = 0; first < in.info.n_elements; first += block) {
         if (m_control) {
             m_control->check();
@@ -216,7 +211,7 @@ void Search::look_at_faces(const SampledClass& in, bool of_all) {
     }
 }
 
-void Search::look_at_faces(const SampledClass& in, std::uint64_t local, bool of_all, Samples& samples) {
+void OverlapSearch::look_at_faces(const SampledClass& in, std::uint64_t local, bool of_all, Samples& samples) {
     const std::uint64_t element = in.info.first_element + local;
     const auto links = std::span(in.links).subspan(links_an_element * local, in.faces.size());
     samples.xi.clear();
@@ -236,7 +231,7 @@ void Search::look_at_faces(const SampledClass& in, std::uint64_t local, bool of_
     }
 }
 
-void Search::look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links, Samples& samples) {
+void OverlapSearch::look_at_samples(std::uint64_t element, std::span<const std::uint32_t> links, Samples& samples) {
     samples.positions.resize(samples.xi.size());
     m_volume.evaluate_mapping(element, samples.xi, samples.positions, {});
     samples.candidates.clear();
@@ -267,7 +262,7 @@ void Search::look_at_samples(std::uint64_t element, std::span<const std::uint32_
 }
 
 /** Whether one of the points is inside by more than rounding. */
-bool Search::holds(std::uint64_t element, std::span<const Vector3> points) const {
+bool OverlapSearch::holds(std::uint64_t element, std::span<const Vector3> points) const {
     const elvis_shape shape = shape_of(element);
     const Vector3 centroid = reference_centroid(shape);
     Vector3 position{};
@@ -281,7 +276,7 @@ bool Search::holds(std::uint64_t element, std::span<const Vector3> points) const
 }
 
 /** Newton's method. It gives up early: a point that is missed in a strongly bent element is one of many. */
-bool Search::holds(std::uint64_t element, elvis_shape shape, const Vector3& start, const Vector3& point) const {
+bool OverlapSearch::holds(std::uint64_t element, elvis_shape shape, const Vector3& start, const Vector3& point) const {
     Vector3 prediction = start;
     for (int step = 0; step < most_steps; ++step) {
         const Vector3 xi = project_into_shape(shape, prediction);
@@ -293,7 +288,7 @@ bool Search::holds(std::uint64_t element, elvis_shape shape, const Vector3& star
         if (!(excess < surely_outside)) {
             return false;
         }
-        if (length(minus(next, prediction)) < converged_step) {
+        if (length(minus(next, prediction)) < converged_overlap_step) {
             return excess < -least_depth;
         }
         prediction = next;
@@ -301,12 +296,12 @@ bool Search::holds(std::uint64_t element, elvis_shape shape, const Vector3& star
     return false;
 }
 
-elvis_shape Search::shape_of(std::uint64_t element) const {
+elvis_shape OverlapSearch::shape_of(std::uint64_t element) const {
     const auto holds_it = [&](const SampledClass& in) { return element < in.info.first_element + in.info.n_elements; };
     return std::ranges::find_if(m_classes, holds_it)->info.shape;
 }
 
-void Search::mark(std::uint64_t one, std::uint64_t other) {
+void OverlapSearch::mark(std::uint64_t one, std::uint64_t other) {
     for (const std::uint64_t element : {one, other}) {
         std::atomic_ref(m_is_marked[element]).store(1, std::memory_order_relaxed);
     }
@@ -322,7 +317,7 @@ bool can_find_overlaps(const RuntimeVolume& volume) {
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, std::span<const Hierarchy* const> hierarchies,
                                                 Background& background, const TaskControl* control) {
     assert(can_find_overlaps(volume) && hierarchies.size() == volume.classes().size());
-    return Search(volume, hierarchies, background, control).find();
+    return OverlapSearch(volume, hierarchies, background, control).find();
 }
 
 std::vector<std::uint64_t> overlapping_elements(const RuntimeVolume& volume, const TaskControl* control) {

@@ -15,8 +15,6 @@ constexpr std::size_t most_points = 9;
 // Each from the lattice's point next to where the one before led.
 constexpr int n_steps = 3;
 
-double dot(const double* row, const Vector3& v) { return row[0] * v[0] + row[1] * v[1] + row[2] * v[2]; }
-
 } // namespace
 
 SearchStarts::SearchStarts(elvis_shape shape, const MappingFunction& mapping, std::size_t n_targets) : m_shape(shape) {

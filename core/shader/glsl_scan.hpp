@@ -11,6 +11,9 @@
 
 namespace elvis {
 
+/** Whether an identifier or a number may go on with this character. */
+bool continues_identifier(char c);
+
 /** Something that a text defines outside all functions. */
 struct GlslDefinition {
     enum class Kind { function, prototype, type, constant, macro };

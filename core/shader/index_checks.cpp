@@ -10,19 +10,18 @@ namespace elvis {
 
 namespace {
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
 /** A word, or one character of anything else, outside comments. */
-struct Token {
+struct PlacedToken {
     std::size_t begin = 0;
     std::string_view text;
     /** Of braces, before it. */
     int depth = 0;
 };
 
-std::vector<Token> tokens_of(std::string_view text) {
-    std::vector<Token> tokens;
+std::vector<PlacedToken> tokens_of(std::string_view text) {
+    std::vector<PlacedToken> tokens;
     int depth = 0;
     for (std::size_t i = 0; i < text.size();) {
         if (text.substr(i, 2) == "//") {
@@ -33,7 +32,7 @@ std::vector<Token> tokens_of(std::string_view text) {
             ++i;
         } else {
             std::size_t end = i + 1;
-            while (is_word(text[i]) && end < text.size() && is_word(text[end])) {
+            while (continues_identifier(text[i]) && end < text.size() && continues_identifier(text[end])) {
                 ++end;
             }
             tokens.push_back({i, text.substr(i, end - i), depth});
@@ -44,11 +43,11 @@ std::vector<Token> tokens_of(std::string_view text) {
     return tokens;
 }
 
-bool is_name(const Token& token) {
-    return is_word(token.text[0]) && std::isdigit(static_cast<unsigned char>(token.text[0])) == 0;
+bool is_name(const PlacedToken& token) {
+    return continues_identifier(token.text[0]) && std::isdigit(static_cast<unsigned char>(token.text[0])) == 0;
 }
 
-bool is_type_word(const Token& token) {
+bool is_type_word(const PlacedToken& token) {
     constexpr std::string_view others[] = {"return", "else", "case", "do"};
     return is_name(token) && std::find(std::begin(others), std::end(others), token.text) == std::end(others);
 }
@@ -65,7 +64,7 @@ bool is_vector_type(std::string_view word) {
 }
 
 /** Tokens that are names being declared, with their types: "a" and "b" in "float a[2], b = a[0];". */
-std::map<std::size_t, std::string_view> declarations(const std::vector<Token>& tokens) {
+std::map<std::size_t, std::string_view> declarations(const std::vector<PlacedToken>& tokens) {
     std::map<std::size_t, std::string_view> declared;
     for (std::size_t i = 1; i + 1 < tokens.size(); ++i) {
         if (!is_name(tokens[i]) || !is_type_word(tokens[i - 1]) || declared.count(i) != 0) {
@@ -87,7 +86,7 @@ std::map<std::size_t, std::string_view> declarations(const std::vector<Token>& t
 }
 
 /** Index of the bracket that closes the one at `open`, or the number of tokens. */
-std::size_t closing(const std::vector<Token>& tokens, std::size_t open) {
+std::size_t closing(const std::vector<PlacedToken>& tokens, std::size_t open) {
     int depth = 0;
     for (std::size_t i = open; i < tokens.size(); ++i) {
         depth += tokens[i].text == "[" ? 1 : tokens[i].text == "]" ? -1 : 0;
@@ -98,14 +97,14 @@ std::size_t closing(const std::vector<Token>& tokens, std::size_t open) {
     return tokens.size();
 }
 
-bool is_literal(const std::vector<Token>& tokens, std::size_t open, std::size_t close) {
+bool is_literal(const std::vector<PlacedToken>& tokens, std::size_t open, std::size_t close) {
     return close == open + 2 && std::isdigit(static_cast<unsigned char>(tokens[open + 1].text[0])) != 0;
 }
 
 } // namespace
 
 std::string check_indices(std::string_view text) {
-    const std::vector<Token> tokens = tokens_of(text);
+    const std::vector<PlacedToken> tokens = tokens_of(text);
     const std::map<std::size_t, std::string_view> declared = declarations(tokens);
     std::set<std::string_view> names;
     for (const auto& [i, type] : declared) {

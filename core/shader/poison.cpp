@@ -47,8 +47,6 @@ std::string assignments(std::string_view parameters) {
     return text;
 }
 
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-
 /** Places behind the opening braces of loops' bodies. */
 std::vector<std::size_t> loop_bodies(std::string_view text) {
     std::vector<std::size_t> bodies;
@@ -59,9 +57,9 @@ std::vector<std::size_t> loop_bodies(std::string_view text) {
             i = std::min(text.find('\n', i), text.size());
         } else if (text.substr(i, 2) == "/*") {
             i = std::min(text.find("*/", i + 2), text.size() - 2) + 2;
-        } else if (is_word(text[i])) {
+        } else if (continues_identifier(text[i])) {
             std::size_t end = i;
-            while (end < text.size() && is_word(text[end])) {
+            while (end < text.size() && continues_identifier(text[end])) {
                 ++end;
             }
             const std::string_view word = text.substr(i, end - i);

@@ -26,11 +26,6 @@ std::optional<std::uint32_t> plain_vector(const RuntimeVolume& volume, const std
     return std::nullopt;
 }
 
-Vector3 product(const std::array<double, 9>& m, const Vector3& v) {
-    return {m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[3] * v[0] + m[4] * v[1] + m[5] * v[2],
-            m[6] * v[0] + m[7] * v[1] + m[8] * v[2]};
-}
-
 } // namespace
 
 void need_evaluation(const RuntimeVolume& volume) {

@@ -30,8 +30,6 @@ constexpr double largest_turn = 3 * 3.14159265358979 / 180;
 /** So far ahead a line is looked for in the next element; beyond its face by more, it leads back out. */
 constexpr double look_ahead = 1e-6, grazing = 1e-9;
 
-double largest(const Vector3& v) { return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])}); }
-
 /** Follows one line in one direction. */
 class Tracer {
 public:

@@ -16,12 +16,12 @@ using namespace elvis;
 
 namespace {
 
-using Point = std::array<double, 2>;
+using FlatPoint = std::array<double, 2>;
 
 /** Where (X, Y) of the rectangle [0, 2] x [0, 1.5] is. */
-Point place(double a, double b) { return {a + 0.15 * b * b, b + 0.1 * a * a}; }
-double p_at(const Point& x) { return x[0] * x[1] + x[0]; }
-Point u_at(const Point& x) { return {p_at(x), x[0] * x[0]}; }
+FlatPoint place(double a, double b) { return {a + 0.15 * b * b, b + 0.1 * a * a}; }
+double p_at(const FlatPoint& x) { return x[0] * x[1] + x[0]; }
+FlatPoint u_at(const FlatPoint& x) { return {p_at(x), x[0] * x[0]}; }
 
 elvis_space space_of(std::uint32_t order, const std::vector<double>& nodes) {
     auto space = detail::sized<elvis_space>();
@@ -44,7 +44,7 @@ std::vector<double> nodes_of(bool is_square, int order) {
 
 /** Elements of one shape, as images of parts of the rectangle. */
 struct Class {
-    Class(bool is_square, const std::vector<std::array<Point, 3>>& corners)
+    Class(bool is_square, const std::vector<std::array<FlatPoint, 3>>& corners)
         : geometry_nodes(nodes_of(is_square, 2)), field_nodes(nodes_of(is_square, 4)),
           geometry_space(space_of(2, geometry_nodes)) {
         for (const auto& [origin, along, up] : corners) {
@@ -83,15 +83,15 @@ struct Class {
 
 /** Bent quadrilaterals and triangles with p = xy + x and u = (p, x^2), both exact. */
 data bent_rectangle(const context& library) {
-    std::vector<std::array<Point, 3>> squares, triangles;
+    std::vector<std::array<FlatPoint, 3>> squares, triangles;
     for (int j = 0; j < 3; ++j) {
         for (int i = 0; i < 4; ++i) {
             const double a = 0.5 * i, b = 0.5 * j;
             if ((i + j) % 2 == 0) {
-                squares.push_back({Point{a, b}, {0.5, 0}, {0, 0.5}});
+                squares.push_back({FlatPoint{a, b}, {0.5, 0}, {0, 0.5}});
             } else {
-                triangles.push_back({Point{a, b}, {0.5, 0}, {0, 0.5}});
-                triangles.push_back({Point{a + 0.5, b + 0.5}, {-0.5, 0}, {0, -0.5}});
+                triangles.push_back({FlatPoint{a, b}, {0.5, 0}, {0, 0.5}});
+                triangles.push_back({FlatPoint{a + 0.5, b + 0.5}, {-0.5, 0}, {0, -0.5}});
             }
         }
     }
@@ -203,7 +203,7 @@ TEST_CASE("Points of a plane are found in bent elements, with values and gradien
     const data flat = bent_rectangle(library);
     double largest = 0;
     for (int i = 0; i < 100; ++i) {
-        const Point x = place(std::fmod(i * 0.731, 1.99), std::fmod(i * 0.517, 1.49));
+        const FlatPoint x = place(std::fmod(i * 0.731, 1.99), std::fmod(i * 0.517, 1.49));
         const probed found = flat.probe({x[0], x[1], 0}, {"p", "u", "norm(grad(p))"});
         REQUIRE(found.elements[0] >= 0);
         const std::array expected{p_at(x), u_at(x)[0], u_at(x)[1], std::hypot(x[1] + 1, x[0])};
@@ -227,7 +227,7 @@ TEST_CASE("A line in the plane tells where it enters and leaves elements") {
     CHECK(places.front()["before"].is_null());
     CHECK(places.back()["after"].is_null());
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const Point x{places[i]["position"][0], places[i]["position"][1]};
+        const FlatPoint x{places[i]["position"][0], places[i]["position"][1]};
         for (const char* const side : {"before", "after"}) {
             if (!places[i][side].is_null()) {
                 CHECK(places[i][side]["values"][0].get<double>() == Approx(p_at(x)).margin(1e-11));
@@ -276,7 +276,7 @@ TEST_CASE("A number is a height above the plane, and the surface that it makes h
     const data raised = flat.warp(warp);
     const double area = flat.integrate(over(ELVIS_DOMAIN_VOLUME, "sqrt(1 + 0.25 * norm(grad(p))^2)")).value;
     CHECK(raised.integrate(over(ELVIS_DOMAIN_VOLUME, "1")).value == Approx(area).epsilon(1e-8));
-    const Point x = place(0.8, 0.9);
+    const FlatPoint x = place(0.8, 0.9);
     CHECK(raised.probe({x[0], x[1], 0.5 * p_at(x)}, {"p"}).values[0] == Approx(p_at(x)).margin(1e-12));
     CHECK(raised.probe({x[0], x[1], 0}, {"p"}).elements[0] < 0);
     scene shown = library.make_scene();
@@ -316,7 +316,7 @@ TEST_CASE("A pixel of a plane is asked, and percentiles of its values are told")
     shown.set("/field", "\"p\"");
     const auto picked = nlohmann::json::parse(flat.pick(shown, 32.5, 24.5));
     REQUIRE(picked["hit"] == true);
-    const Point x{picked["position"][0], picked["position"][1]};
+    const FlatPoint x{picked["position"][0], picked["position"][1]};
     CHECK(picked["fields"][0]["values"][0].get<double>() == Approx(p_at(x)).margin(1e-9));
     CHECK(picked["order"] == 4);
     CHECK(picked["jacobian"].is_null());

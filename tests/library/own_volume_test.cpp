@@ -229,12 +229,15 @@ TEST_CASE("A table that lacks a function is refused by its name") {
                       Catch::Contains("get_bounds") && Catch::Contains("mine"));
 }
 
-TEST_CASE("An isosurface that is stopped while ranges are asked for is the same the next time") {
+namespace {
+
+void check_stopping(const std::string& shape) {
     const elvis::context context(own_plugins());
     const TemporaryFolder folder;
-    const Solver solver(make_volume(
-        context, folder,
-        R"({"generator": 1, "mesh": "ball", "shape": "prism", "elements": 1, "order": 2, "geometry_order": 2, "field": "waves"})"));
+    const std::string description =
+        R"({"generator": 1, "mesh": "ball", "elements": 1, "order": 2, "geometry_order": 2, "field": "waves", "shape": ")" +
+        shape + "\"}";
+    const Solver solver(make_volume(context, folder, description.c_str()));
     elvis::scene scene = context.make_scene();
     scene.set("/image/size", "[32, 24]");
     scene.set("/surfaces/-", R"({"type": "isosurface", "values": [0.2]})");
@@ -264,3 +267,9 @@ TEST_CASE("An isosurface that is stopped while ranges are asked for is the same 
     }
     CHECK(n_stopped >= 4);
 }
+
+} // namespace
+
+TEST_CASE("An isosurface that is stopped while ranges are asked for is the same the next time") { check_stopping("prism"); }
+
+TEST_CASE("An isosurface in all shapes that is stopped is the same the next time", "[.long]") { check_stopping("mixed"); }

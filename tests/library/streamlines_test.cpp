@@ -15,7 +15,8 @@ using test::TemporaryFolder;
 
 namespace {
 
-constexpr const char* box = R"({"generator": 1, "mesh": "box", "shape": "mixed", "elements": [4, 2, 2], "field": "sphere"})";
+constexpr const char* flow_box =
+    R"({"generator": 1, "mesh": "box", "shape": "mixed", "elements": [4, 2, 2], "field": "sphere"})";
 
 scene with_surface(const context& library, const std::string& surface, const std::string& precision) {
     scene shown = library.make_scene();
@@ -31,7 +32,7 @@ scene with_surface(const context& library, const std::string& surface, const std
 TEST_CASE("The tube about a straight streamline is a cylinder") {
     const context library(own_plugins());
     const TemporaryFolder folder;
-    const data volume = library.open(convert(library, folder, box));
+    const data volume = library.open(convert(library, folder, flow_box));
     for (const auto& [precision, tolerance] : {std::pair{"float32", 2e-5}, std::pair{"float64", 1e-11}}) {
         const picture tube = volume.render(with_surface(
             library, R"s({"type": "streamlines", "flow": "grad(x)", "seeds": [[0.1, 0.05, 0.1]], "radius": 0.1})s", precision));
@@ -96,7 +97,7 @@ TEST_CASE("The ribbon about the axis of a rotation is a helicoid") {
 TEST_CASE("Streamlines from a grid are drawn, and colours of another field are on them") {
     const context library(own_plugins());
     const TemporaryFolder folder;
-    const data volume = library.open(convert(library, folder, box));
+    const data volume = library.open(convert(library, folder, flow_box));
     scene shown = with_surface(library, R"s({"type": "streamlines", "flow": "x*grad(y) - y*grad(x)", "seed_grid": 3,
                                               "radius": 0.03, "length": 5, "field": "sphere"})s",
                                "float32");
@@ -115,7 +116,7 @@ TEST_CASE("Streamlines from a grid are drawn, and colours of another field are o
 TEST_CASE("Seeds on a line, on a plane and in the volume are the points that they stand for") {
     const context library(own_plugins());
     const TemporaryFolder folder;
-    const data volume = library.open(convert(library, folder, box));
+    const data volume = library.open(convert(library, folder, flow_box));
     const auto depths = [&](const std::string& seeds) {
         scene shown = with_surface(
             library, R"({"type": "plane", "plane": [0, 0, 1, 0], "name": "cut", "visible": false, "clip": [[0, 1, 0, -0.2]]})",
@@ -174,7 +175,7 @@ TEST_CASE("Lines of a scene with a displacement are those of the displaced volum
 TEST_CASE("Streamlines come as arrays, with values at their points") {
     const context library(own_plugins());
     const TemporaryFolder folder;
-    const data volume = library.open(convert(library, folder, box));
+    const data volume = library.open(convert(library, folder, flow_box));
     const std::vector<double> seeds{0.1, 0.2, 0.3, 7, 0, 0, -0.4, 0.5, 0.6};
     const elvis_string fields[] = {"sphere", "2 * x"};
     auto wanted = detail::sized<elvis_tracing>();

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t n_elements = 2;
 
-Field field(const char* name, std::uint32_t n_components = 1) {
+Field named_field(const char* name, std::uint32_t n_components = 1) {
     Field result;
     result.name = name;
     result.n_components = n_components;
@@ -42,7 +42,7 @@ std::shared_ptr<ArrayVolume> some_volume(Points& points, const Kind& kind) {
         const Space space{shape, kind.basis, cube(kind.order)};
         description.classes.push_back({{shape, kind.basis, cube(kind.geometry_order)}, {space, space}, n_elements});
     }
-    description.fields = {field("p"), field("u", 3)};
+    description.fields = {named_field("p"), named_field("u", 3)};
     description.times.assign(kind.n_steps, 0.0);
     auto volume = std::make_shared<ArrayVolume>(description, std::vector<Face>());
     Points mesh(11);

@@ -222,7 +222,7 @@ void check_compiles(KernelRequest request, const std::string& of_element, const 
     }
 }
 
-void check_use(const KernelUse& use, const HostBuffers& buffers, Precision precision) {
+void check_use(const KernelUse& use, const HostBuffers& buffers, Precision precision, bool is_exhaustive) {
     if (use.is_double_only && precision != Precision::float64) {
         return;
     }
@@ -235,11 +235,12 @@ void check_use(const KernelUse& use, const HostBuffers& buffers, Precision preci
             continue;
         }
         for (const NamedShape& shape : shapes) {
-            if ((shape.is_flat && use.is_for_solids) || (precision == Precision::float64 && !shape.is_of_each_kind)) {
+            if ((shape.is_flat && use.is_for_solids) ||
+                (precision == Precision::float64 && !shape.is_of_each_kind && !is_exhaustive)) {
                 continue;
             }
             for (const Gives gives : {Gives::least, Gives::all}) {
-                if (gives == Gives::least && (precision == Precision::float64 || !shape.is_of_each_kind)) {
+                if (gives == Gives::least && !is_exhaustive && (precision == Precision::float64 || !shape.is_of_each_kind)) {
                     continue;
                 }
                 for (const Shown& shown : all_shown(use, shape, gives)) {
@@ -279,18 +280,23 @@ TEST_CASE("The table of kernels has every file and no other") {
     }
 }
 
-TEST_CASE("Every kernel compiles for every shape in single precision") {
+namespace {
+
+void check_all(Precision precision, bool is_exhaustive) {
     const test::CacheFolder cache;
-    const HostBuffers buffers(Precision::float32);
+    const HostBuffers buffers(precision);
     for (const KernelUse& use : test::kernel_uses()) {
-        check_use(use, buffers, Precision::float32);
+        check_use(use, buffers, precision, is_exhaustive);
     }
 }
 
-TEST_CASE("Every kernel compiles for shapes of each kind in double precision") {
-    const test::CacheFolder cache;
-    const HostBuffers buffers(Precision::float64);
-    for (const KernelUse& use : test::kernel_uses()) {
-        check_use(use, buffers, Precision::float64);
-    }
+} // namespace
+
+TEST_CASE("Every kernel compiles for every shape in single precision") { check_all(Precision::float32, false); }
+
+TEST_CASE("Every kernel compiles for shapes of each kind in double precision") { check_all(Precision::float64, false); }
+
+TEST_CASE("Every kernel compiles with every snippet for every shape in both precisions", "[.long]") {
+    check_all(Precision::float32, true);
+    check_all(Precision::float64, true);
 }

@@ -13,7 +13,7 @@ using namespace elvis;
 namespace {
 
 /** One change: an end cut off, bytes exchanged, a number or a tag replaced, a part removed or repeated. */
-std::string damaged(std::string content, std::mt19937& random) {
+std::string damaged_text(std::string content, std::mt19937& random) {
     const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
     // Half of the changes in the part that is surely text.
     const std::size_t reach = below(2) == 0 ? std::min<std::size_t>(content.size(), 3000) : content.size();
@@ -75,7 +75,7 @@ TEST_CASE("damaged files neither crash nor hang nor take memory", "[vtk]") {
         for (int variant = 0; variant < 200; ++variant) {
             INFO(name << ", variant " << variant);
             try {
-                const SourceVolume source = open_vtk({folder.write("damaged.vtu", damaged(good, random))});
+                const SourceVolume source = open_vtk({folder.write("damaged.vtu", damaged_text(good, random))});
                 std::vector<elvis_source_element> elements(source.info().n_elements);
                 source.elements(0, elements.size(), elements);
                 std::vector<double> values(source.n_values());
@@ -99,9 +99,9 @@ TEST_CASE("damaged files neither crash nor hang nor take memory", "[vtk]") {
         <DataSet timestep="0" part="0" file="all.pvtu"/><DataSet timestep="1" file="piece.vtu"/></Collection></VTKFile>)";
     for (int variant = 0; variant < 200; ++variant) {
         INFO("collection, variant " << variant);
-        folder.write("all.pvtu", variant % 2 == 0 ? damaged(parallel, random) : parallel);
+        folder.write("all.pvtu", variant % 2 == 0 ? damaged_text(parallel, random) : parallel);
         try {
-            open_vtk({folder.write("all.pvd", variant % 2 == 0 ? collection : damaged(collection, random))});
+            open_vtk({folder.write("all.pvd", variant % 2 == 0 ? collection : damaged_text(collection, random))});
             ++n_read;
         } catch (const Error&) {
             ++n_refused;

@@ -12,7 +12,6 @@ namespace elvis {
 
 namespace {
 
-constexpr double wanted_error = ConvergenceScene::wanted_error;
 constexpr double largest_tolerance = 0.25;
 constexpr int coarsest = 2, finest = 13;
 constexpr int n_timed_runs = 5;
@@ -23,7 +22,7 @@ struct Contender {
     ComparisonRow row;
 };
 
-double tolerance_of(const ComparisonRow& row) { return row.tolerance > 0 ? row.tolerance : wanted_error; }
+double tolerance_of(const ComparisonRow& row) { return row.tolerance > 0 ? row.tolerance : ConvergenceScene::wanted_error; }
 
 Contender exact_contender(double tolerance) {
     Contender contender;
@@ -34,8 +33,8 @@ Contender exact_contender(double tolerance) {
 /** By halving, then by bisection to a quarter of a halving. */
 std::optional<double> largest_step(ConvergenceScene& scene, const Frame& reference, Integrator integrator) {
     const auto is_good = [&](double exponent) {
-        const Frame frame = scene.draw(integrator, scene.diagonal() * std::exp2(-exponent), wanted_error);
-        return largest_difference(frame, reference) <= wanted_error;
+        const Frame frame = scene.draw(integrator, scene.diagonal() * std::exp2(-exponent), ConvergenceScene::wanted_error);
+        return largest_difference(frame, reference) <= ConvergenceScene::wanted_error;
     };
     double good = coarsest;
     while (!is_good(good)) {
@@ -62,9 +61,9 @@ Contender stepped_contender(ConvergenceScene& scene, const Frame& reference, Int
 
 /** Tolerances are kept with much to spare: as steps are, this one is what reaches the error. */
 double loosest_tolerance(ConvergenceScene& scene, const Frame& reference) {
-    double tolerance = wanted_error;
+    double tolerance = ConvergenceScene::wanted_error;
     while (tolerance < largest_tolerance &&
-           largest_difference(scene.draw(Integrator::exact, 0, 2 * tolerance), reference) <= wanted_error) {
+           largest_difference(scene.draw(Integrator::exact, 0, 2 * tolerance), reference) <= ConvergenceScene::wanted_error) {
         tolerance *= 2;
     }
     return tolerance;
@@ -81,7 +80,8 @@ void compare_integrators(const Device& device, const std::string& name, const Ru
         exact.rendering().transfer = scene.rendering().transfer = transfer;
         double tolerance = 0;
         const Frame reference = exact.draw_reference(tolerance);
-        std::vector<Contender> contenders{exact_contender(wanted_error), exact_contender(loosest_tolerance(scene, reference)),
+        std::vector<Contender> contenders{exact_contender(ConvergenceScene::wanted_error),
+                                          exact_contender(loosest_tolerance(scene, reference)),
                                           stepped_contender(scene, reference, Integrator::trapezoid),
                                           stepped_contender(scene, reference, Integrator::categories)};
         std::vector<ComparisonRow> rows;

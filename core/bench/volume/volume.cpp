@@ -13,9 +13,9 @@ namespace elvis {
 
 namespace {
 
-constexpr int n_runs = 3;
+constexpr int n_volume_runs = 3;
 /** World length of a step. */
-constexpr double step = 3.8 / 256;
+constexpr double step_length = 3.8 / 256;
 
 constexpr double range_end = 1.5;
 constexpr std::array<Integrator, 5> integrators{Integrator::riemann, Integrator::trapezoid, Integrator::categories,
@@ -98,7 +98,7 @@ FrameRequest waves_volume_picture(std::uint32_t size, BenchTransfer transfer, In
     VolumeRendering& volume = request.volume.emplace();
     volume.transfer = bench_transfer(transfer);
     volume.integrator = integrator;
-    volume.step = step;
+    volume.step = step_length;
     return request;
 }
 
@@ -122,7 +122,7 @@ void bench_volume(const Device& device, const PluginRegistry& registry, const Be
                         result.elements_a_side = n;
                         result.order = order;
                         result.size = size;
-                        const RepeatedFrame repeated = render_repeatedly(renderer, request, n_runs);
+                        const RepeatedFrame repeated = render_repeatedly(renderer, request, n_volume_runs);
                         const Frame& frame = repeated.frame;
                         result.milliseconds = repeated.milliseconds;
                         result.wall_milliseconds = repeated.wall_milliseconds;

@@ -33,10 +33,10 @@ double finer_order(std::vector<RuleError> errors, double least) {
     return measured_order(std::span(errors).subspan(errors.size() / 2), least);
 }
 
-class Bench {
+class ConvergenceBench {
 public:
-    Bench(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
-          const VolumeConvergenceOptions& options, double unit_nanoseconds, const VolumeConvergenceReport& report)
+    ConvergenceBench(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
+                     const VolumeConvergenceOptions& options, double unit_nanoseconds, const VolumeConvergenceReport& report)
         : m_device(device), m_registry(registry), m_folder(folder), m_options(options), m_unit(unit_nanoseconds),
           m_report(report) {}
 
@@ -233,7 +233,7 @@ private:
 VolumeConvergence bench_volume_convergence(const Device& device, const PluginRegistry& registry, const BenchFolder& folder,
                                            const VolumeConvergenceOptions& options, double unit_nanoseconds,
                                            const VolumeConvergenceReport& report) {
-    Bench bench(device, registry, folder, options, unit_nanoseconds, report);
+    ConvergenceBench bench(device, registry, folder, options, unit_nanoseconds, report);
     bench.integrate_broken_cubic();
     bench.draw_edges();
     bench.draw_sphere();

@@ -45,10 +45,11 @@ void write_comparison(const std::filesystem::path& path, const VolumeConvergence
     check(file, path);
 }
 
-using Number = std::function<double(const ConvergenceRow&)>;
+using ConvergenceNumber = std::function<double(const ConvergenceRow&)>;
 
 /** A line a curve, in the order in which their names first come. */
-std::vector<PlotSeries> lines(const VolumeConvergence& result, const std::string& figure, const Number& x, const Number& y) {
+std::vector<PlotSeries> lines(const VolumeConvergence& result, const std::string& figure, const ConvergenceNumber& x,
+                              const ConvergenceNumber& y) {
     std::map<std::string, std::size_t> index;
     std::vector<PlotSeries> series;
     for (const ConvergenceRow& row : result.rows) {
@@ -73,14 +74,14 @@ void write_volume_convergence(const std::filesystem::path& folder, const VolumeC
     std::filesystem::create_directories(folder);
     write_rows(folder / "volume-convergence.csv", result);
     write_comparison(folder / "volume-comparison.csv", result);
-    const Number samples = [](const ConvergenceRow& row) { return row.samples_a_pixel; };
-    const Number error = [](const ConvergenceRow& row) { return row.error; };
-    const Number units = [](const ConvergenceRow& row) { return row.units; };
-    const Number size = [](const ConvergenceRow& row) { return static_cast<double>(row.size); };
-    const Number order = [](const ConvergenceRow& row) { return static_cast<double>(row.order); };
+    const ConvergenceNumber samples = [](const ConvergenceRow& row) { return row.samples_a_pixel; };
+    const ConvergenceNumber error = [](const ConvergenceRow& row) { return row.error; };
+    const ConvergenceNumber units = [](const ConvergenceRow& row) { return row.units; };
+    const ConvergenceNumber size = [](const ConvergenceRow& row) { return static_cast<double>(row.size); };
+    const ConvergenceNumber order = [](const ConvergenceRow& row) { return static_cast<double>(row.order); };
     const PlotAxis samples_axis{"samples a pixel", true}, error_axis{"largest error", true}, time{"time / U", true};
-    const auto draw = [&](const char* name, const char* title, const char* figure, const PlotAxis& x_axis, const Number& x,
-                          const PlotAxis& y_axis, const Number& y) {
+    const auto draw = [&](const char* name, const char* title, const char* figure, const PlotAxis& x_axis,
+                          const ConvergenceNumber& x, const PlotAxis& y_axis, const ConvergenceNumber& y) {
         const std::vector<PlotSeries> series = lines(result, figure, x, y);
         if (!series.empty()) {
             write_svg(folder / (std::string(name) + ".svg"), {title, x_axis, y_axis, series});

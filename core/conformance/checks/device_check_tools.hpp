@@ -23,12 +23,6 @@ inline constexpr std::size_t n_points = 24;
 /** Fields beyond these are not looked at: every one costs a compilation. */
 inline constexpr std::size_t max_fields = 4;
 
-inline RuntimeVolume open_volume(Context& context) {
-    context.need_runtime_volume();
-    context.progress("open");
-    return RuntimeVolume(context.plugin(), context.subject().files.front(), context.subject().options);
-}
-
 /** At most five complaints a check: the first tell enough. */
 class Complaints {
 public:

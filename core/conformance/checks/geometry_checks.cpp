@@ -17,14 +17,8 @@ namespace elvis::conformance {
 
 namespace {
 
-constexpr std::size_t n_elements_a_class = 24;
+constexpr std::size_t n_elements_checked = 24;
 constexpr std::size_t n_points = 80;
-
-RuntimeVolume open_volume(Context& context) {
-    context.need_runtime_volume();
-    context.progress("open");
-    return RuntimeVolume(context.plugin(), context.subject().files.front(), context.subject().options);
-}
 
 std::string at_text(std::uint64_t element, const Point& xi) {
     return "element " + std::to_string(element) + " at xi " + text_of(xi);
@@ -35,7 +29,7 @@ void check_bounds(Context& context) {
     const Evaluator evaluator(context, volume);
     double tightest = 0;
     int n_complaints = 0;
-    for (const std::uint64_t element : some_elements(volume, n_elements_a_class, context.subject().seed)) {
+    for (const std::uint64_t element : some_elements(volume, n_elements_checked, context.subject().seed)) {
         const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
         std::array<double, 6> box{};
         context.progress("element " + std::to_string(element));
@@ -78,7 +72,7 @@ void check_ranges(Context& context) {
     for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
         evaluator.select(field);
         const std::uint32_t n_components = volume.fields()[field].n_components;
-        for (const std::uint64_t element : some_elements(volume, n_elements_a_class, context.subject().seed)) {
+        for (const std::uint64_t element : some_elements(volume, n_elements_checked, context.subject().seed)) {
             std::vector<FieldRange> ranges(n_components);
             context.progress("element " + std::to_string(element));
             volume.field_ranges(field, 0, element, 1, ranges);
@@ -169,7 +163,7 @@ void check_derivative_bounds(Context& context) {
     int n_complaints = 0;
     for (std::uint32_t field = 0; field < volume.fields().size(); ++field) {
         evaluator.select(field);
-        for (const std::uint64_t element : some_elements(volume, n_elements_a_class / 2, context.subject().seed)) {
+        for (const std::uint64_t element : some_elements(volume, n_elements_checked / 2, context.subject().seed)) {
             context.progress("element " + std::to_string(element));
             const std::vector<ClaimedBounds> claims = claimed_bounds(volume, field, element);
             const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
@@ -203,7 +197,7 @@ void check_jacobian_signs(Context& context) {
         throw Skipped("needs evaluate_mapping");
     }
     int n_complaints = 0;
-    for (const std::uint64_t element : some_elements(volume, n_elements_a_class, context.subject().seed)) {
+    for (const std::uint64_t element : some_elements(volume, n_elements_checked, context.subject().seed)) {
         std::array<JacobianCheck, 1> answer{};
         context.progress("element " + std::to_string(element));
         volume.check_jacobians(element, 1e-6, answer);
@@ -310,7 +304,7 @@ void check_cpu_derivatives(Context& context) {
         throw Skipped("the plugin does not evaluate on the CPU");
     }
     DerivativeComparison compare{context};
-    for (const std::uint64_t element : some_elements(volume, n_elements_a_class / 2, context.subject().seed)) {
+    for (const std::uint64_t element : some_elements(volume, n_elements_checked / 2, context.subject().seed)) {
         const elvis_shape shape = volume.classes()[class_of(volume, element)].shape;
         const std::vector<Point> xi = interior_points(shape, n_points / 4, context.subject().seed + element);
         const std::string which = "of element " + std::to_string(element);

@@ -30,12 +30,12 @@ namespace elvis::conformance {
 
 namespace {
 
-constexpr std::size_t n_elements_a_class = 12;
+constexpr std::size_t n_elements_with_lines = 12;
 constexpr std::size_t n_lines = 2; ///< of each direction
 /** Degrees beyond the declared one that are told apart; higher ones alias into them. */
 constexpr std::size_t n_degrees_beyond = 5;
 /** Far above the rounding of sums in double precision, of high orders too, and far below a mode that matters. */
-constexpr double tolerance = 1e-8;
+constexpr double order_tolerance = 1e-8;
 constexpr std::size_t max_complaints = 5;
 
 struct Direction {
@@ -115,7 +115,7 @@ Direction oblique(elvis_shape shape) {
 std::uint32_t degree_of(const std::vector<double>& values) {
     const std::size_t n = values.size();
     const auto [low, high] = std::ranges::minmax(values);
-    const double limit = tolerance * (high - low) + 1e-12 * std::max(std::abs(low), std::abs(high));
+    const double limit = order_tolerance * (high - low) + 1e-12 * std::max(std::abs(low), std::abs(high));
     for (std::size_t degree = n - 1; degree > 0; --degree) {
         double coefficient = 0;
         for (std::size_t k = 0; k < n; ++k) {
@@ -267,7 +267,7 @@ void check_orders(Context& context) {
     context.progress("open");
     const RuntimeVolume volume(context.plugin(), context.subject().files.front(), context.subject().options);
     OrderCheck check(context, volume);
-    const std::vector<std::uint64_t> elements = some_elements(volume, n_elements_a_class, context.subject().seed);
+    const std::vector<std::uint64_t> elements = some_elements(volume, n_elements_with_lines, context.subject().seed);
     for (const std::uint64_t element : elements) {
         context.progress("mapping of element " + std::to_string(element));
         check.mapping(class_of(volume, element), element);

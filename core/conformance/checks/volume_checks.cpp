@@ -19,12 +19,6 @@ namespace elvis::conformance {
 
 namespace {
 
-RuntimeVolume open_volume(Context& context) {
-    context.need_runtime_volume();
-    context.progress("open");
-    return RuntimeVolume(context.plugin(), context.subject().files.front(), context.subject().options);
-}
-
 void check_counts(Context& context) {
     const RuntimeVolume volume = open_volume(context);
     std::set<std::string> kinds;

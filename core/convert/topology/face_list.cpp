@@ -8,7 +8,7 @@ namespace elvis {
 namespace {
 
 constexpr std::size_t faces_at_once = 1u << 18;
-constexpr std::uint64_t elements_at_once = 16384;
+constexpr std::uint64_t elements_read_at_once = 16384;
 
 native::Face face_of(const Topology& topology, std::uint64_t element, int local, std::int32_t group) {
     const auto at = static_cast<std::size_t>(local);
@@ -34,12 +34,12 @@ void list_faces(const SourceVolume& source, const Topology& topology, const Task
     std::vector<elvis_source_element> elements;
     const std::uint64_t n_elements = topology.shapes.size();
     for (std::uint64_t element = 0; element < n_elements; ++element) {
-        if (element % elements_at_once == 0) {
+        if (element % elements_read_at_once == 0) {
             control.check();
-            elements.resize(std::min(elements_at_once, n_elements - element));
+            elements.resize(std::min(elements_read_at_once, n_elements - element));
             source.elements(element, elements.size(), elements);
         }
-        const elvis_source_element& its = elements[element % elements_at_once];
+        const elvis_source_element& its = elements[element % elements_read_at_once];
         for (int local = 0; local < native::n_faces(static_cast<native::Shape>(topology.shapes[element])); ++local) {
             const bool is_other_side =
                 topology.is_shared(element, local) && topology.other_side(element, local) < face_side(element, local);

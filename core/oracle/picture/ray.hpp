@@ -8,11 +8,14 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <optional>
 
 namespace elvis::oracle {
 
 using LongVector = Eigen::Matrix<long double, 3, 1>;
+
+inline Eigen::Vector3d vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
 struct Ray {
     LongVector origin;

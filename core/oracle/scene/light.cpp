@@ -1,14 +1,11 @@
 #include "light.hpp"
 
+#include <core/oracle/picture/ray.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace elvis::oracle {
-namespace {
-
-Vector vector_of(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
-
-} // namespace
 
 Color lit(const Lighting& lighting, const Color& color, const Vector& normal, const Vector& position, const Vector& to_viewer) {
     const Vector n = normal.dot(to_viewer) < 0 ? Vector(-normal) : normal;

@@ -15,8 +15,6 @@
 namespace elvis::oracle {
 namespace {
 
-Vector vector_of(const Vector3& v) { return {v[0], v[1], v[2]}; }
-
 /** A part of a shape: where a function of position vanishes and `holds`. */
 struct ShapePart {
     std::function<double(const Vector& x)> value;

@@ -71,9 +71,9 @@ void append_curve(const OpacityPoint& from, const OpacityPoint& to, double first
         const double chord = tau_first + part * (tau_last - tau_first);
         is_near = is_near && std::abs(tau_at(first + part * (last - first)) - chord) <= seen * tolerance;
     }
-    constexpr int deepest_split = 24;
+    constexpr int deepest_opacity_split = 24;
     // Curves are flat at one end and steep at the other: the first splits are not left to what few places tell.
-    if (depth >= deepest_split || (is_near && depth >= 3)) {
+    if (depth >= deepest_opacity_split || (is_near && depth >= 3)) {
         return;
     }
     const double middle = 0.5 * (first + last);

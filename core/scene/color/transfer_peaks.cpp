@@ -9,7 +9,7 @@ namespace {
 
 /** A tenth of what a picture may be off. */
 constexpr double mix_tolerance = 1e-4;
-constexpr int deepest_split = 12;
+constexpr int deepest_peak_split = 12;
 
 enum class Side { below, above };
 
@@ -98,7 +98,7 @@ void refine(const std::vector<Part>& parts, const std::array<double, 2>& interva
                 is_near && std::abs(exact[channel] - (from[channel] + part * (to[channel] - from[channel]))) <= mix_tolerance;
         }
     }
-    if (is_near || depth >= deepest_split) {
+    if (is_near || depth >= deepest_peak_split) {
         return;
     }
     const double middle = 0.5 * (first + last);

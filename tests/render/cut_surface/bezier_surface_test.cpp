@@ -11,7 +11,7 @@
 namespace elvis::oracle {
 namespace {
 
-constexpr std::uint32_t size = 64;
+constexpr std::uint32_t patches_size = 64;
 constexpr int n_cells = 24;
 
 using Net = std::array<LongVector, 16>;
@@ -33,7 +33,7 @@ LongVector combine(const Net& net, const std::array<long double, 4>& u, const st
     return sum;
 }
 
-struct Crossing {
+struct PatchCrossing {
     double t;
     Vector normal;
 };
@@ -54,8 +54,8 @@ public:
         }
     }
 
-    std::vector<Crossing> crossings(const Ray& ray, double from, double to) const {
-        std::vector<Crossing> found;
+    std::vector<PatchCrossing> crossings(const Ray& ray, double from, double to) const {
+        std::vector<PatchCrossing> found;
         const LongVector d = ray.direction, x = d.unitOrthogonal(), y = d.cross(x);
         const Vector o = ray.origin.cast<double>(), xd = x.cast<double>(), yd = y.cast<double>();
         for (std::size_t patch = 0; patch < m_nets.size(); ++patch) {
@@ -77,13 +77,13 @@ public:
                         newton(m_nets[patch], ray, x, y, (i + a) / n_cells, (j + b) / n_cells, from, to, found);
                 }
         }
-        std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+        std::sort(found.begin(), found.end(), [](const PatchCrossing& a, const PatchCrossing& b) { return a.t < b.t; });
         return found;
     }
 
 private:
     static void newton(const Net& net, const Ray& ray, const LongVector& x, const LongVector& y, long double u, long double v,
-                       double from, double to, std::vector<Crossing>& found) {
+                       double from, double to, std::vector<PatchCrossing>& found) {
         for (int step = 0; step < 20; ++step) {
             const LongVector off = combine(net, weights(u), weights(v)) - ray.origin;
             const LongVector along_u = combine(net, slopes(u), weights(v)), along_v = combine(net, weights(u), slopes(v));
@@ -136,12 +136,12 @@ void check(const std::string& name, PatchMesh patches, const Camera& camera) {
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(file.path(), precision);
         const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
-        const SurfacePicture picture = scene.draw(solver, shape, camera, size, size);
+        const SurfacePicture picture = scene.draw(solver, shape, camera, patches_size, patches_size);
         Vector normal;
         const SurfaceComparison found = compare(
-            picture, camera, size, size,
+            picture, camera, patches_size, patches_size,
             [&](const Ray& ray, double from, double to) {
-                for (const Crossing& crossing : reference.crossings(ray, from, to))
+                for (const PatchCrossing& crossing : reference.crossings(ray, from, to))
                     if (is_in_two_blocks((ray.origin + crossing.t * ray.direction).cast<double>())) {
                         normal = crossing.normal;
                         return std::vector<double>{crossing.t};

@@ -12,7 +12,7 @@
 namespace elvis::oracle {
 namespace {
 
-constexpr std::uint32_t size = 96;
+constexpr std::uint32_t mesh_size = 96;
 
 // A ball of quadrilaterals, each cut in two, with triangles at the poles.
 TriangleMesh ball(const Vector& center, double radius, int n) {
@@ -38,13 +38,13 @@ TriangleMesh ball(const Vector& center, double radius, int n) {
     return mesh;
 }
 
-struct Crossing {
+struct TriangleCrossing {
     double t;
     Vector normal;
 };
 
-std::vector<Crossing> all_crossings(const TriangleMesh& mesh, const Ray& ray, double from, double to) {
-    std::vector<Crossing> found;
+std::vector<TriangleCrossing> all_crossings(const TriangleMesh& mesh, const Ray& ray, double from, double to) {
+    std::vector<TriangleCrossing> found;
     const auto point = [&](std::uint32_t i) -> LongVector { return {mesh.points[i][0], mesh.points[i][1], mesh.points[i][2]}; };
     for (const auto& triangle : mesh.triangles) {
         const LongVector a = point(triangle[0]), along = point(triangle[1]) - a, aside = point(triangle[2]) - a;
@@ -61,7 +61,7 @@ std::vector<Crossing> all_crossings(const TriangleMesh& mesh, const Ray& ray, do
         if (u >= -rounding && v >= -rounding && u + v <= 1 + rounding && t >= from && t <= to)
             found.push_back({static_cast<double>(t), normal.cast<double>()});
     }
-    std::sort(found.begin(), found.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+    std::sort(found.begin(), found.end(), [](const TriangleCrossing& a, const TriangleCrossing& b) { return a.t < b.t; });
     return found;
 }
 
@@ -76,13 +76,13 @@ TEST_CASE("meshes of triangles are drawn exactly") {
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(file.path(), precision);
         const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
-        const SurfacePicture picture = scene.draw(solver, shape, camera, size, size);
+        const SurfacePicture picture = scene.draw(solver, shape, camera, mesh_size, mesh_size);
         Vector normal;
         const SurfaceComparison found = compare(
-            picture, camera, size, size,
+            picture, camera, mesh_size, mesh_size,
             [&](const Ray& ray, double from, double to) {
                 std::vector<double> distances;
-                for (const Crossing& crossing : all_crossings(*mesh, ray, from, to)) {
+                for (const TriangleCrossing& crossing : all_crossings(*mesh, ray, from, to)) {
                     if (is_in_two_blocks((ray.origin + crossing.t * ray.direction).cast<double>()) && distances.empty()) {
                         distances.push_back(crossing.t);
                         normal = crossing.normal;

@@ -17,11 +17,11 @@ namespace {
 
 using native::Shape;
 
-constexpr std::uint32_t size = 120;
+constexpr std::uint32_t surface_lines_size = 120;
 
 FrameRequest view() {
     FrameRequest request;
-    request.width = request.height = size;
+    request.width = request.height = surface_lines_size;
     request.camera.eye = {2.1, 1.7, 1.4};
     request.camera.look_at = {0.5, 0.5, 0.5};
     request.camera.up = {0, 0, 1};
@@ -52,9 +52,9 @@ Counts compare_lines(const FrameRequest& request, const Frame& frame, std::uint3
         double least = std::numeric_limits<double>::infinity(), most = -least;
         for (int j = 0; j <= n; ++j)
             for (int i = 0; i <= n; ++i) {
-                const auto seen =
-                    see(pixel_ray(request.camera, size, size, column + width * (i / static_cast<long double>(n) - 0.5L),
-                                  row + width * (j / static_cast<long double>(n) - 0.5L)));
+                const auto seen = see(pixel_ray(request.camera, surface_lines_size, surface_lines_size,
+                                                column + width * (i / static_cast<long double>(n) - 0.5L),
+                                                row + width * (j / static_cast<long double>(n) - 0.5L)));
                 if (seen) {
                     least = std::min(least, *seen);
                     most = std::max(most, *seen);
@@ -62,10 +62,11 @@ Counts compare_lines(const FrameRequest& request, const Frame& frame, std::uint3
             }
         return by_sign ? least < 0 && most > 0 : least < most;
     };
-    for (std::uint32_t row = 0; row < size; ++row)
-        for (std::uint32_t column = 0; column < size; ++column) {
-            const std::size_t pixel = std::size_t{row} * size + column;
-            if (frame.element[pixel] < 0 || !see(pixel_ray(request.camera, size, size, column, row)))
+    for (std::uint32_t row = 0; row < surface_lines_size; ++row)
+        for (std::uint32_t column = 0; column < surface_lines_size; ++column) {
+            const std::size_t pixel = std::size_t{row} * surface_lines_size + column;
+            if (frame.element[pixel] < 0 ||
+                !see(pixel_ray(request.camera, surface_lines_size, surface_lines_size, column, row)))
                 continue;
             const bool is_marked = (frame.flags[pixel] & yes) != 0, is_open = (frame.flags[pixel] & open) != 0;
             counts.hit += 1;

@@ -35,14 +35,14 @@ std::array<Frame, 2> drawn(Renderer& renderer, const RuntimeVolume& volume, cons
     return {std::move(first), std::move(second)};
 }
 
-struct Picture {
+struct CollectedPicture {
     const char* name;
     const char* scene;
     /** Of the first picture and the next, at most. These elements are so bent that octants of octants are looked at. */
     std::array<std::uint64_t, 2> submissions;
 };
 
-constexpr Picture pictures[] = {
+constexpr CollectedPicture pictures[] = {
     {"plane",
      R"({"version": 1, "image": {"size": [60, 45]}, "surfaces": [{"type": "plane", "plane": [0.1, 0.2, 1, 0.1]}]})",
      {11, 4}},
@@ -68,7 +68,7 @@ TEST_CASE("Collected commands draw the same picture in few submissions") {
     const RuntimeVolume volume = open_volume(file.path());
     const Device single(with(Submissions::single)), collected(with(Submissions::collected));
     Renderer one_by_one(single, volume, Precision::float32), together(collected, volume, Precision::float32);
-    for (const Picture& picture : pictures) {
+    for (const CollectedPicture& picture : pictures) {
         const std::array<Frame, 2> all_wanted = drawn(one_by_one, volume, picture.scene),
                                    frames = drawn(together, volume, picture.scene);
         for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -180,10 +180,13 @@ TEST_CASE("boundary, cut plane, isosurfaces and volume lie in each other as alon
     }
 }
 
-TEST_CASE("what passes share changes no picture, but for the rounding of isosurfaces in front of what hides others") {
+namespace {
+
+void check_sharing(const std::string& shape) {
     const TemporaryFile file("shared.h5");
     generate(
-        R"({"generator": 1, "mesh": "ball", "shape": "prism", "elements": 2, "order": 2, "geometry_order": 2, "field": "waves"})",
+        R"({"generator": 1, "mesh": "ball", "elements": 2, "order": 2, "geometry_order": 2, "field": "waves", "shape": ")" +
+            shape + "\"}",
         file.path());
     const RuntimeVolume volume = open_volume(file.path());
     FrameRequest request;
@@ -243,5 +246,13 @@ TEST_CASE("what passes share changes no picture, but for the rounding of isosurf
         }
     }
 }
+
+} // namespace
+
+TEST_CASE("what passes share changes no picture, but for the rounding of isosurfaces in front of what hides others") {
+    check_sharing("prism");
+}
+
+TEST_CASE("What passes share changes no picture of a ball of all shapes", "[.long]") { check_sharing("mixed"); }
 
 } // namespace elvis::oracle

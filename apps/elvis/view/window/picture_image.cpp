@@ -1,6 +1,6 @@
 #include "picture_image.hpp"
 
-#include "place.hpp"
+#include "error_place.hpp"
 
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
@@ -24,11 +24,11 @@ VkDeviceMemory allocate(VkPhysicalDevice physical, VkDevice device, const VkMemo
             info.allocationSize = needs.size;
             info.memoryTypeIndex = type;
             VkDeviceMemory result = VK_NULL_HANDLE;
-            check_vulkan(vkAllocateMemory(device, &info, nullptr, &result), place, "allocating the picture");
+            check_vulkan(vkAllocateMemory(device, &info, nullptr, &result), error_place, "allocating the picture");
             return result;
         }
     }
-    throw Error(place, "its device has no memory for the picture");
+    throw Error(error_place, "its device has no memory for the picture");
 }
 
 void transition(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags source,
@@ -57,13 +57,13 @@ PictureImage::PictureImage(VkPhysicalDevice physical, VkDevice device, VkFormat 
         buffer.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
         buffer.size = VkDeviceSize{4} * width * height;
         buffer.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-        check_vulkan(vkCreateBuffer(device, &buffer, nullptr, &m_buffer), place, "making room for the picture");
+        check_vulkan(vkCreateBuffer(device, &buffer, nullptr, &m_buffer), error_place, "making room for the picture");
         VkMemoryRequirements needs{};
         vkGetBufferMemoryRequirements(device, m_buffer, &needs);
         m_buffer_memory =
             allocate(physical, device, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-        check_vulkan(vkBindBufferMemory(device, m_buffer, m_buffer_memory, 0), place, "making room for the picture");
-        check_vulkan(vkMapMemory(device, m_buffer_memory, 0, VK_WHOLE_SIZE, 0, &m_mapped), place, "mapping the picture");
+        check_vulkan(vkBindBufferMemory(device, m_buffer, m_buffer_memory, 0), error_place, "making room for the picture");
+        check_vulkan(vkMapMemory(device, m_buffer_memory, 0, VK_WHOLE_SIZE, 0, &m_mapped), error_place, "mapping the picture");
 
         VkImageCreateInfo image{};
         image.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -76,10 +76,10 @@ PictureImage::PictureImage(VkPhysicalDevice physical, VkDevice device, VkFormat 
         image.tiling = VK_IMAGE_TILING_OPTIMAL;
         image.usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
         image.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-        check_vulkan(vkCreateImage(device, &image, nullptr, &m_image), place, "making room for the picture");
+        check_vulkan(vkCreateImage(device, &image, nullptr, &m_image), error_place, "making room for the picture");
         vkGetImageMemoryRequirements(device, m_image, &needs);
         m_image_memory = allocate(physical, device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-        check_vulkan(vkBindImageMemory(device, m_image, m_image_memory, 0), place, "making room for the picture");
+        check_vulkan(vkBindImageMemory(device, m_image, m_image_memory, 0), error_place, "making room for the picture");
     } catch (...) {
         release();
         throw;

@@ -1,7 +1,7 @@
 #include "presenter.hpp"
 
+#include "error_place.hpp"
 #include "picture_image.hpp"
-#include "place.hpp"
 #include "swapchain.hpp"
 
 #include <core/base/error.hpp>
@@ -48,7 +48,7 @@ struct Presenter::Impl {
     Impl(GLFWwindow* shown_in, const std::string& wanted, bool validation)
         : window(shown_in), instance(validation, window_extensions()) {
         try {
-            check_vulkan(glfwCreateWindowSurface(instance.handle(), window, nullptr, &target.surface), place,
+            check_vulkan(glfwCreateWindowSurface(instance.handle(), window, nullptr, &target.surface), error_place,
                          "making it known to Vulkan");
             choose_device(target, instance, wanted);
             create_device(target);
@@ -69,19 +69,20 @@ struct Presenter::Impl {
         pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
         pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
         pool_info.queueFamilyIndex = target.family;
-        check_vulkan(vkCreateCommandPool(target.device, &pool_info, nullptr, &pool), place, "creating its commands");
+        check_vulkan(vkCreateCommandPool(target.device, &pool_info, nullptr, &pool), error_place, "creating its commands");
         VkCommandBufferAllocateInfo commands_info{};
         commands_info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
         commands_info.commandPool = pool;
         commands_info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
         commands_info.commandBufferCount = 1;
-        check_vulkan(vkAllocateCommandBuffers(target.device, &commands_info, &commands), place, "creating its commands");
+        check_vulkan(vkAllocateCommandBuffers(target.device, &commands_info, &commands), error_place, "creating its commands");
         VkFenceCreateInfo fence_info{};
         fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-        check_vulkan(vkCreateFence(target.device, &fence_info, nullptr, &fence), place, "creating its fence");
+        check_vulkan(vkCreateFence(target.device, &fence_info, nullptr, &fence), error_place, "creating its fence");
         VkSemaphoreCreateInfo semaphore_info{};
         semaphore_info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-        check_vulkan(vkCreateSemaphore(target.device, &semaphore_info, nullptr, &acquired), place, "creating its semaphore");
+        check_vulkan(vkCreateSemaphore(target.device, &semaphore_info, nullptr, &acquired), error_place,
+                     "creating its semaphore");
     }
 
     void make_swapchain() {
@@ -103,7 +104,8 @@ struct Presenter::Impl {
         info.maxSets = 8;
         info.poolSizeCount = 1;
         info.pPoolSizes = &size;
-        check_vulkan(vkCreateDescriptorPool(target.device, &info, nullptr, &descriptors), place, "creating its descriptors");
+        check_vulkan(vkCreateDescriptorPool(target.device, &info, nullptr, &descriptors), error_place,
+                     "creating its descriptors");
 
         ImGui_ImplVulkan_InitInfo init{};
         init.Instance = instance.handle();
@@ -117,7 +119,7 @@ struct Presenter::Impl {
         init.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
         init.CheckVkResultFn = check_backend;
         if (!ImGui_ImplVulkan_Init(&init, render_pass)) {
-            throw Error(place, "the panels could not be set up");
+            throw Error(error_place, "the panels could not be set up");
         }
         has_backend = true;
         submit_and_wait([](VkCommandBuffer buffer) { ImGui_ImplVulkan_CreateFontsTexture(buffer); });
@@ -132,7 +134,7 @@ struct Presenter::Impl {
 
     /** What has been recorded, after one semaphore and before another; waits until it is done. */
     void submit(const VkSemaphore* awaited = nullptr, const VkSemaphore* signalled = nullptr) {
-        check_vulkan(vkEndCommandBuffer(commands), place, "recording");
+        check_vulkan(vkEndCommandBuffer(commands), error_place, "recording");
         const VkPipelineStageFlags wait_stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
         VkSubmitInfo info{};
         info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
@@ -143,17 +145,17 @@ struct Presenter::Impl {
         info.pCommandBuffers = &commands;
         info.signalSemaphoreCount = signalled != nullptr ? 1 : 0;
         info.pSignalSemaphores = signalled;
-        check_vulkan(vkQueueSubmit(target.queue, 1, &info, fence), place, "submitting");
-        check_vulkan(vkWaitForFences(target.device, 1, &fence, VK_TRUE, UINT64_MAX), place, "waiting for its device");
-        check_vulkan(vkResetFences(target.device, 1, &fence), place, "resetting its fence");
+        check_vulkan(vkQueueSubmit(target.queue, 1, &info, fence), error_place, "submitting");
+        check_vulkan(vkWaitForFences(target.device, 1, &fence, VK_TRUE, UINT64_MAX), error_place, "waiting for its device");
+        check_vulkan(vkResetFences(target.device, 1, &fence), error_place, "resetting its fence");
     }
 
     void begin_commands() {
-        check_vulkan(vkResetCommandPool(target.device, pool, 0), place, "resetting commands");
+        check_vulkan(vkResetCommandPool(target.device, pool, 0), error_place, "resetting commands");
         VkCommandBufferBeginInfo begin{};
         begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
         begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-        check_vulkan(vkBeginCommandBuffer(commands, &begin), place, "recording");
+        check_vulkan(vkBeginCommandBuffer(commands, &begin), error_place, "recording");
     }
 
     /** Background and pictures, into an image that is then ready for the render pass. */
@@ -230,7 +232,7 @@ struct Presenter::Impl {
             return; // The next frame comes at once: a change of size is followed by a wish to be drawn.
         }
         if (result != VK_SUBOPTIMAL_KHR) {
-            check_vulkan(result, place, "getting an image");
+            check_vulkan(result, error_place, "getting an image");
         }
         const Swapchain::Image& image = swapchain->images()[index];
         record(image, panels, boxes, background);
@@ -241,7 +243,7 @@ struct Presenter::Impl {
         if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR || is_size_old) {
             make_swapchain();
         } else {
-            check_vulkan(result, place, "presenting");
+            check_vulkan(result, error_place, "presenting");
         }
     }
 

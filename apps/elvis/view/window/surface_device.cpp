@@ -1,6 +1,6 @@
 #include "surface_device.hpp"
 
-#include "place.hpp"
+#include "error_place.hpp"
 
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
@@ -41,8 +41,8 @@ std::span<const char* const> window_extensions() {
     std::uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     if (names == nullptr) {
-        throw Error(place, "this machine has no Vulkan driver that can show pictures in windows (Debian package "
-                           "mesa-vulkan-drivers has one for the CPU)");
+        throw Error(error_place, "this machine has no Vulkan driver that can show pictures in windows (Debian package "
+                                 "mesa-vulkan-drivers has one for the CPU)");
     }
     return {names, count};
 }
@@ -58,7 +58,7 @@ void choose_device(SurfaceDevice& target, const Instance& instance, const std::s
         }
     }
     if (able.empty()) {
-        throw Error(place, "no Vulkan device of this machine can show pictures in it");
+        throw Error(error_place, "no Vulkan device of this machine can show pictures in it");
     }
     DeviceSummary chosen = able.front();
     try {
@@ -85,7 +85,7 @@ void create_device(SurfaceDevice& target) {
     info.pQueueCreateInfos = &queue_info;
     info.enabledExtensionCount = 1;
     info.ppEnabledExtensionNames = &extension;
-    check_vulkan(vkCreateDevice(target.physical, &info, nullptr, &target.device), place, "creating its device");
+    check_vulkan(vkCreateDevice(target.physical, &info, nullptr, &target.device), error_place, "creating its device");
     vkGetDeviceQueue(target.device, target.family, 0, &target.queue);
 }
 
@@ -119,7 +119,7 @@ VkRenderPass create_render_pass(const SurfaceDevice& target, VkFormat format) {
     info.dependencyCount = 1;
     info.pDependencies = &before;
     VkRenderPass render_pass = VK_NULL_HANDLE;
-    check_vulkan(vkCreateRenderPass(target.device, &info, nullptr, &render_pass), place, "creating its render pass");
+    check_vulkan(vkCreateRenderPass(target.device, &info, nullptr, &render_pass), error_place, "creating its render pass");
     return render_pass;
 }
 

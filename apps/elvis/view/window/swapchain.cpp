@@ -1,6 +1,6 @@
 #include "swapchain.hpp"
 
-#include "place.hpp"
+#include "error_place.hpp"
 
 #include <core/base/error.hpp>
 #include <core/vulkan/check.hpp>
@@ -11,9 +11,10 @@ namespace elvis::view {
 
 VkSurfaceFormatKHR display_format(VkPhysicalDevice device, VkSurfaceKHR surface) {
     std::uint32_t count = 0;
-    check_vulkan(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), place, "listing its formats");
+    check_vulkan(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), error_place, "listing its formats");
     std::vector<VkSurfaceFormatKHR> formats(count);
-    check_vulkan(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data()), place, "listing its formats");
+    check_vulkan(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data()), error_place,
+                 "listing its formats");
     for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM}) {
         for (const VkSurfaceFormatKHR& format : formats) {
             if (format.format == wanted) {
@@ -21,14 +22,14 @@ VkSurfaceFormatKHR display_format(VkPhysicalDevice device, VkSurfaceKHR surface)
             }
         }
     }
-    throw Error(place, "its device offers no format with 8 bits a channel and plain numbers");
+    throw Error(error_place, "its device offers no format with 8 bits a channel and plain numbers");
 }
 
 Swapchain::Swapchain(const SurfaceDevice& device, VkSurfaceFormatKHR format, VkRenderPass render_pass, VkExtent2D size,
                      const Swapchain* old)
     : m_device(device.device) {
     VkSurfaceCapabilitiesKHR capabilities{};
-    check_vulkan(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical, device.surface, &capabilities), place,
+    check_vulkan(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device.physical, device.surface, &capabilities), error_place,
                  "asking for its size");
     m_size = capabilities.currentExtent.width != UINT32_MAX ? capabilities.currentExtent : size;
     m_size.width = std::clamp(m_size.width, capabilities.minImageExtent.width, std::max(capabilities.maxImageExtent.width, 1u));
@@ -53,12 +54,12 @@ Swapchain::Swapchain(const SurfaceDevice& device, VkSurfaceFormatKHR format, VkR
     info.presentMode = VK_PRESENT_MODE_FIFO_KHR; // The one that is always there.
     info.clipped = VK_TRUE;
     info.oldSwapchain = old != nullptr ? old->handle() : VK_NULL_HANDLE;
-    check_vulkan(vkCreateSwapchainKHR(m_device, &info, nullptr, &m_swapchain), place, "creating its images");
+    check_vulkan(vkCreateSwapchainKHR(m_device, &info, nullptr, &m_swapchain), error_place, "creating its images");
     try {
         std::uint32_t count = 0;
-        check_vulkan(vkGetSwapchainImagesKHR(m_device, m_swapchain, &count, nullptr), place, "listing its images");
+        check_vulkan(vkGetSwapchainImagesKHR(m_device, m_swapchain, &count, nullptr), error_place, "listing its images");
         std::vector<VkImage> images(count);
-        check_vulkan(vkGetSwapchainImagesKHR(m_device, m_swapchain, &count, images.data()), place, "listing its images");
+        check_vulkan(vkGetSwapchainImagesKHR(m_device, m_swapchain, &count, images.data()), error_place, "listing its images");
         for (const VkImage handle : images) {
             add_image(handle, format.format, render_pass);
         }
@@ -77,7 +78,7 @@ void Swapchain::add_image(VkImage handle, VkFormat format, VkRenderPass render_p
     view.viewType = VK_IMAGE_VIEW_TYPE_2D;
     view.format = format;
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    check_vulkan(vkCreateImageView(m_device, &view, nullptr, &image.view), place, "creating a view");
+    check_vulkan(vkCreateImageView(m_device, &view, nullptr, &image.view), error_place, "creating a view");
     VkFramebufferCreateInfo framebuffer{};
     framebuffer.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     framebuffer.renderPass = render_pass;
@@ -86,10 +87,11 @@ void Swapchain::add_image(VkImage handle, VkFormat format, VkRenderPass render_p
     framebuffer.width = m_size.width;
     framebuffer.height = m_size.height;
     framebuffer.layers = 1;
-    check_vulkan(vkCreateFramebuffer(m_device, &framebuffer, nullptr, &image.framebuffer), place, "creating a framebuffer");
+    check_vulkan(vkCreateFramebuffer(m_device, &framebuffer, nullptr, &image.framebuffer), error_place,
+                 "creating a framebuffer");
     VkSemaphoreCreateInfo semaphore{};
     semaphore.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
-    check_vulkan(vkCreateSemaphore(m_device, &semaphore, nullptr, &image.drawn), place, "creating a semaphore");
+    check_vulkan(vkCreateSemaphore(m_device, &semaphore, nullptr, &image.drawn), error_place, "creating a semaphore");
 }
 
 void Swapchain::release() noexcept {

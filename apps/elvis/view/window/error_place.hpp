@@ -3,6 +3,6 @@
 
 namespace elvis::view {
 
-inline constexpr const char* place = "window";
+inline constexpr const char* error_place = "window";
 
 } // namespace elvis::view
