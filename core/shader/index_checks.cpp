@@ -1,5 +1,7 @@
 #include <core/shader/index_checks.hpp>
 
+#include <core/shader/glsl_scan.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <map>
