@@ -4,6 +4,7 @@
 
 #include <core/arrows/scene_arrows.hpp>
 #include <core/session/streamline_tubes.hpp>
+#include <core/session/supersampled.hpp>
 #include <core/session/volume/describe_volume.hpp>
 
 #include <catch2/catch.hpp>
@@ -126,6 +127,7 @@ TEST_CASE("Several samples a pixel in parts are those of the whole, in however m
     Scene plain = scene;
     plain.samples = 1;
     const Frame whole = stage.as_whole(scene), parts = stage.in_parts(scene, 3), bands = stage.in_parts(scene, 3, 240 * 48);
+    const Frame without_samples = stage.in_parts(plain, 3);
     const Differences found = between(whole, parts), without = between(stage.as_whole(plain), parts);
     std::printf("3 x 3 samples: colour is off in %zu of %zu pixels (%zu unflagged), and in %zu if there is one sample\n",
                 found.n_color, found.n_hit, found.n_silent, without.n_color);
@@ -137,6 +139,36 @@ TEST_CASE("Several samples a pixel in parts are those of the whole, in however m
           static_cast<std::size_t>(std::ranges::count_if(
               parts.flags, [](std::uint32_t flags) { return (flags & pixel_flag::contour_undecided) != 0; })));
     CHECK(without.n_color > 500);
+    CHECK(parts.counts.undecided_contour_pixels + parts.counts.undecided_pixels >
+          without_samples.counts.undecided_contour_pixels + without_samples.counts.undecided_pixels);
+}
+
+TEST_CASE("A pixel has the doubt of its samples, and is counted once") {
+    // Two by two samples of the second of two rows.
+    Frame frame, fine;
+    frame.width = 3;
+    frame.height = 2;
+    frame.flags = {0, 0, 0, 0, pixel_flag::undecided, 0};
+    frame.counts.undecided_pixels = 1;
+    fine.width = 6;
+    fine.height = 2;
+    fine.flags = {0,
+                  pixel_flag::contour,
+                  pixel_flag::undecided,
+                  0,
+                  0,
+                  pixel_flag::contour_undecided,
+                  0,
+                  0,
+                  0,
+                  0,
+                  pixel_flag::contour_undecided | pixel_flag::undecided,
+                  0};
+    take_doubts(fine, {2, 4}, 2, frame);
+    CHECK(frame.flags ==
+          std::vector<std::uint32_t>{0, 0, 0, 0, pixel_flag::undecided, pixel_flag::undecided | pixel_flag::contour_undecided});
+    CHECK(frame.counts.undecided_pixels == 2);
+    CHECK(frame.counts.undecided_contour_pixels == 1);
 }
 
 TEST_CASE("Wide lines in parts are those of the whole, or flagged, and refused on what is cut away") {
