@@ -3,7 +3,6 @@
 #include <core/shader/snippet_check.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 #include <vector>
 

@@ -154,10 +154,6 @@ std::array<double, 2> errors(const RuntimeVolume& volume, DeviceVolume& data,
     return {value_error / value_size, gradient_size > 0 ? gradient_error / gradient_size : 0};
 }
 
-} // namespace
-
-namespace {
-
 // In double precision in every shape from one text on, before it, and in single precision, in one of the four.
 void check_expressions(std::size_t first_in_every_shape) {
     const RuntimeVolume volume = curved_volume().open();

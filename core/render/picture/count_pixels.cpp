@@ -22,10 +22,14 @@ void count_bits(std::uint32_t flags, Found& found) {
 } // namespace
 
 void add_flags(Frame& frame, std::size_t pixel, std::uint32_t flags) {
-    Found added{};
-    count_bits(flags & ~frame.flags[pixel], added);
-    FlagsPass::add(added, frame.counts);
-    frame.flags[pixel] |= flags;
+    const std::uint32_t added = flags & ~frame.flags[pixel];
+    if (added == 0) {
+        return;
+    }
+    Found found{};
+    count_bits(added, found);
+    FlagsPass::add(found, frame.counts);
+    frame.flags[pixel] |= added;
 }
 
 void count_pixels(Frame& frame) {

@@ -11,7 +11,7 @@
 namespace elvis::oracle {
 namespace {
 
-constexpr std::uint32_t patches_size = 64;
+constexpr std::uint32_t patch_picture_size = 64;
 constexpr int n_cells = 24;
 
 using Net = std::array<LongVector, 16>;
@@ -136,10 +136,10 @@ void check(const std::string& name, PatchMesh patches, const Camera& camera) {
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(file.path(), precision);
         const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
-        const SurfacePicture picture = scene.draw(solver, shape, camera, patches_size, patches_size);
+        const SurfacePicture picture = scene.draw(solver, shape, camera, patch_picture_size, patch_picture_size);
         Vector normal;
         const SurfaceComparison found = compare(
-            picture, camera, patches_size, patches_size,
+            picture, camera, patch_picture_size, patch_picture_size,
             [&](const Ray& ray, double from, double to) {
                 for (const PatchCrossing& crossing : reference.crossings(ray, from, to))
                     if (is_in_two_blocks((ray.origin + crossing.t * ray.direction).cast<double>())) {

@@ -12,7 +12,7 @@
 namespace elvis::oracle {
 namespace {
 
-constexpr std::uint32_t mesh_size = 96;
+constexpr std::uint32_t mesh_picture_size = 96;
 
 // A ball of quadrilaterals, each cut in two, with triangles at the poles.
 TriangleMesh ball(const Vector& center, double radius, int n) {
@@ -76,10 +76,10 @@ TEST_CASE("meshes of triangles are drawn exactly") {
     for (const Precision precision : {Precision::float32, Precision::float64}) {
         SurfaceScene scene(file.path(), precision);
         const SurfaceSolver solver(device(), precision, shape, scene.data().bounds());
-        const SurfacePicture picture = scene.draw(solver, shape, camera, mesh_size, mesh_size);
+        const SurfacePicture picture = scene.draw(solver, shape, camera, mesh_picture_size, mesh_picture_size);
         Vector normal;
         const SurfaceComparison found = compare(
-            picture, camera, mesh_size, mesh_size,
+            picture, camera, mesh_picture_size, mesh_picture_size,
             [&](const Ray& ray, double from, double to) {
                 std::vector<double> distances;
                 for (const TriangleCrossing& crossing : all_crossings(*mesh, ray, from, to)) {

@@ -15,7 +15,7 @@ namespace {
 
 using native::Shape;
 
-constexpr std::uint32_t contours_size = 160;
+constexpr std::uint32_t contour_picture_size = 160;
 
 VolumeData volume_of(bool is_curved, std::uint32_t order, const Function& function) {
     VolumeData data;
@@ -41,7 +41,8 @@ TEST_CASE("contours of a circle are right to the pixel at every magnification, o
         for (const Precision precision : {Precision::float64, Precision::float32}) {
             Renderer renderer(device(), volume, precision);
             for (const double magnification : {1.0, 10.0, 100.0, 1000.0}) {
-                FrameRequest request = view_around(magnification == 1 ? centre : on_circle, magnification, contours_size);
+                FrameRequest request =
+                    view_around(magnification == 1 ? centre : on_circle, magnification, contour_picture_size);
                 request.surfaces[0].contours = Contours{{radius * radius}, {}};
                 const Frame frame = renderer.render(request);
                 const Verdict verdict =
@@ -55,7 +56,7 @@ TEST_CASE("contours of a circle are right to the pixel at every magnification, o
                      << (is_double ? ", float64" : ", float32") << ", magnified " << magnification << ": " << verdict.marked
                      << " pixels, " << verdict.undecided << " undecided, " << verdict.wrong << " wrong");
                 CHECK(verdict.wrong == 0);
-                CHECK(verdict.marked + verdict.undecided >= contours_size / 2);
+                CHECK(verdict.marked + verdict.undecided >= contour_picture_size / 2);
                 if (is_double) {
                     CHECK(verdict.undecided <= 2);
                 }
@@ -69,7 +70,7 @@ TEST_CASE("nothing is undecided along the horizon of a plane, far behind the vol
     write_volume(file.path(), volume_of(false, 2, [](const Vector& x) { return x.x() * x.y(); }));
     const RuntimeVolume volume = open_volume(file.path());
     FrameRequest request;
-    request.width = request.height = contours_size;
+    request.width = request.height = contour_picture_size;
     request.camera.eye = {-2, 0.4, 0.9};
     request.camera.look_at = {0.5, 0.5, 0.6};
     request.camera.up = {0.1, 0.2, 1};
@@ -90,7 +91,7 @@ TEST_CASE("nothing is undecided along the horizon of a plane, far behind the vol
             n_lines += (flags & (pixel_flag::contour | pixel_flag::mesh_line)) != 0 ? 1 : 0;
         }
         WARN(n_lines << " pixels with lines, " << n_undecided << " undecided");
-        CHECK(n_lines > contours_size);
+        CHECK(n_lines > contour_picture_size);
         CHECK(n_undecided <= 2);
     }
 }

@@ -17,11 +17,11 @@ namespace {
 
 using native::Shape;
 
-constexpr std::uint32_t surface_lines_size = 120;
+constexpr std::uint32_t surface_picture_size = 120;
 
 FrameRequest view() {
     FrameRequest request;
-    request.width = request.height = surface_lines_size;
+    request.width = request.height = surface_picture_size;
     request.camera.eye = {2.1, 1.7, 1.4};
     request.camera.look_at = {0.5, 0.5, 0.5};
     request.camera.up = {0, 0, 1};
@@ -52,7 +52,7 @@ Counts compare_lines(const FrameRequest& request, const Frame& frame, std::uint3
         double least = std::numeric_limits<double>::infinity(), most = -least;
         for (int j = 0; j <= n; ++j)
             for (int i = 0; i <= n; ++i) {
-                const auto seen = see(pixel_ray(request.camera, surface_lines_size, surface_lines_size,
+                const auto seen = see(pixel_ray(request.camera, surface_picture_size, surface_picture_size,
                                                 column + width * (i / static_cast<long double>(n) - 0.5L),
                                                 row + width * (j / static_cast<long double>(n) - 0.5L)));
                 if (seen) {
@@ -62,11 +62,11 @@ Counts compare_lines(const FrameRequest& request, const Frame& frame, std::uint3
             }
         return by_sign ? least < 0 && most > 0 : least < most;
     };
-    for (std::uint32_t row = 0; row < surface_lines_size; ++row)
-        for (std::uint32_t column = 0; column < surface_lines_size; ++column) {
-            const std::size_t pixel = std::size_t{row} * surface_lines_size + column;
+    for (std::uint32_t row = 0; row < surface_picture_size; ++row)
+        for (std::uint32_t column = 0; column < surface_picture_size; ++column) {
+            const std::size_t pixel = std::size_t{row} * surface_picture_size + column;
             if (frame.element[pixel] < 0 ||
-                !see(pixel_ray(request.camera, surface_lines_size, surface_lines_size, column, row)))
+                !see(pixel_ray(request.camera, surface_picture_size, surface_picture_size, column, row)))
                 continue;
             const bool is_marked = (frame.flags[pixel] & yes) != 0, is_open = (frame.flags[pixel] & open) != 0;
             counts.hit += 1;

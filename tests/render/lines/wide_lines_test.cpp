@@ -15,7 +15,7 @@ namespace {
 
 using native::Shape;
 
-constexpr std::uint32_t wide_lines_size = 120;
+constexpr std::uint32_t wide_picture_size = 120;
 
 /** Distance of a pixel's middle from a line on the plane, in pixels. */
 using Distance = std::function<double(std::uint32_t column, std::uint32_t row)>;
@@ -26,9 +26,9 @@ constexpr double pixel_size = 1.0 / 100;
 /** The plane seen from above: a pixel is a square on it, wherever it is. */
 FrameRequest from_above(double turned) {
     FrameRequest request;
-    request.width = request.height = wide_lines_size;
+    request.width = request.height = wide_picture_size;
     request.camera.orthographic = true;
-    request.camera.height = wide_lines_size * pixel_size;
+    request.camera.height = wide_picture_size * pixel_size;
     // Away from where lines and pixels are symmetric to each other.
     request.camera.eye = {0.4937, 0.5071, 3};
     request.camera.look_at = {0.4937, 0.5071, plane_z};
@@ -41,7 +41,7 @@ FrameRequest from_above(double turned) {
 }
 
 Vector middle_of(const FrameRequest& request, std::uint32_t column, std::uint32_t row) {
-    const Ray ray = pixel_ray(request.camera, wide_lines_size, wide_lines_size, column, row);
+    const Ray ray = pixel_ray(request.camera, wide_picture_size, wide_picture_size, column, row);
     return (ray.origin + (plane_z - ray.origin.z()) / ray.direction.z() * ray.direction).cast<double>();
 }
 
@@ -54,14 +54,14 @@ struct Rim {
 Rim rim_of(const FrameRequest& request, const Frame& frame, double width, const Distance& distance) {
     Rim rim;
     double area = 0;
-    for (std::uint32_t row = 0; row < wide_lines_size; ++row) {
-        for (std::uint32_t column = 0; column < wide_lines_size; ++column) {
+    for (std::uint32_t row = 0; row < wide_picture_size; ++row) {
+        for (std::uint32_t column = 0; column < wide_picture_size; ++column) {
             const Vector x = middle_of(request, column, row);
             // Nothing of the volume is seen beyond, where the line goes on.
             if (std::min({x.x(), x.y(), 1 - x.x(), 1 - x.y()}) < (0.5 * width + 3) * pixel_size) {
                 continue;
             }
-            const bool is_drawn = frame.color[4 * (std::size_t{row} * wide_lines_size + column)] > 0.5;
+            const bool is_drawn = frame.color[4 * (std::size_t{row} * wide_picture_size + column)] > 0.5;
             const double beyond = distance(column, row) - 0.5 * width;
             rim.n_drawn += is_drawn;
             area += beyond <= 0 ? 1 : 0;
