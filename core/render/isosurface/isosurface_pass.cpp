@@ -194,14 +194,18 @@ void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t f
     if (m_projection.list(target.layer, flags, pixel_flag::estimated) == 0) {
         return;
     }
+    std::vector<std::pair<std::uint32_t, const ComposedKernel*>> compiled;
     for (const ClassKernels& kernels : m_kernels) {
         if (m_isovalue_set.n_elements(kernels.element_class) > 0) {
             m_isovalue_set.provide_element_nodes(kernels.element_class);
             KernelRequest request = kernels.request;
             request.buffers.insert(request.buffers.end(), kernels.elements.begin(), kernels.elements.end());
-            m_projection.draw(request, kernels.element_class, method, m_degree, picture, first_surface + kernels.element_class,
-                              counts);
+            compiled.emplace_back(kernels.element_class,
+                                  &m_projection.provide(request, kernels.element_class, method, m_degree));
         }
+    }
+    for (const auto& [element_class, kernel] : compiled) {
+        m_projection.draw(*kernel, picture, first_surface + element_class, counts);
     }
 }
 
@@ -244,6 +248,14 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const std::vector<TileList::Ranges> ranges = list_tiles(layer, wanted);
+    const Role of_shallow = mask ? Role::chosen_pixels : Role::pixels, of_deep = mask ? Role::chosen_pixels : Role::deep_pixels;
+    for (std::size_t index = 0; index < m_kernels.size(); ++index) {
+        for (const auto& [role, range] : {std::pair{of_shallow, ranges[index].shallow}, {of_deep, ranges[index].deep}}) {
+            if (range.count > 0) {
+                m_kernels[index].provide(m_device, role, m_values.size() == 1);
+            }
+        }
+    }
     for (std::uint32_t index = 0; index < m_kernels.size(); ++index) {
         ClassKernels& kernels = m_kernels[index];
         if (m_isovalue_set.n_octants(kernels.element_class) == 0) {
@@ -284,8 +296,8 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                     .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / rows_of(m_device, role));
             });
         };
-        draw_tiles(mask ? Role::chosen_pixels : Role::pixels, ranges[index].shallow);
-        draw_tiles(mask ? Role::chosen_pixels : Role::deep_pixels, ranges[index].deep);
+        draw_tiles(of_shallow, ranges[index].shallow);
+        draw_tiles(of_deep, ranges[index].deep);
         take_counts(layer, m_counts, n_counts, [&counts](std::span<const std::uint32_t> found) {
             counts.field_evaluations += found[evaluations];
             counts.excluded_intervals += found[excluded] + found[outside];

@@ -37,12 +37,14 @@ struct Parameters {
 IsosurfaceProjection::IsosurfaceProjection(const Device& device)
     : m_device(device), m_counts(device, n_counts * sizeof(std::uint32_t)) {}
 
-const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request, const Key& key) {
+const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request, std::uint32_t element_class,
+                                                    IsosurfaceMethod method, std::uint32_t degree) {
+    const bool uses_colleague = method == IsosurfaceMethod::companion;
+    const Key key{element_class, uses_colleague, degree};
     const auto found = m_kernels.find(key);
     if (found != m_kernels.end()) {
         return found->second;
     }
-    const auto& [element_class, uses_colleague, degree] = key;
     KernelRequest own = request;
     own.name = "isosurface_projection of element class " + std::to_string(element_class);
     own.kernel = "isosurface/isosurface_projection.comp";
@@ -79,10 +81,9 @@ std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags
     return m_n_listed;
 }
 
-void IsosurfaceProjection::draw(const KernelRequest& request, std::uint32_t element_class, IsosurfaceMethod method,
-                                std::uint32_t degree, const Picture& picture, std::uint32_t surface, FrameCounts& counts) {
+void IsosurfaceProjection::draw(const ComposedKernel& kernel, const Picture& picture, std::uint32_t surface,
+                                FrameCounts& counts) {
     const Layer& layer = picture.target.layer;
-    const ComposedKernel& kernel = provide(request, {element_class, method == IsosurfaceMethod::companion, degree});
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = picture.target.beyond ? *picture.target.beyond : layer.normals;
     const std::array<const Buffer*, 11> bindings = {&picture.frame,        &layer.samples,   &layer.normals,     &m_counts,

@@ -37,14 +37,16 @@ public:
         /** The diagonal of the volume's bounds. */
         float extent = 0;
     };
-    /** In the listed pixels, for one class, whose kernels have `request` in common (IsosurfacePass). */
-    void draw(const KernelRequest& request, std::uint32_t element_class, IsosurfaceMethod method, std::uint32_t degree,
-              const Picture& picture, std::uint32_t surface, FrameCounts& counts);
+    /** The kernel of one class, whose kernels have `request` in common (IsosurfacePass). Ask for all before the first is drawn:
+     * they are compiled together. */
+    const ComposedKernel& provide(const KernelRequest& request, std::uint32_t element_class, IsosurfaceMethod method,
+                                  std::uint32_t degree);
+    /** In the listed pixels, one class. */
+    void draw(const ComposedKernel& kernel, const Picture& picture, std::uint32_t surface, FrameCounts& counts);
 
 private:
     /** Element class, whether roots are eigenvalues, degree. */
     using Key = std::tuple<std::uint32_t, bool, std::uint32_t>;
-    const ComposedKernel& provide(const KernelRequest& request, const Key& key);
     const ComposedKernel& provide_list_kernel(bool fills_mask);
 
     const Device& m_device;
