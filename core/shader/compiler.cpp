@@ -2,6 +2,7 @@
 
 #include <core/base/cache.hpp>
 #include <core/base/error.hpp>
+#include <core/shader/argument_copies.hpp>
 #include <core/shader/includes.hpp>
 #include <core/shader/snippet_check.hpp>
 
@@ -19,7 +20,7 @@ namespace elvis {
 namespace {
 
 /** Raise when the way of compiling changes, so that old cache entries are not taken. */
-constexpr const char* way_of_compiling = "1";
+constexpr const char* way_of_compiling = "2";
 
 std::string compiler_version() {
     const glslang::Version version = glslang::GetVersion();
@@ -80,13 +81,14 @@ std::vector<std::uint32_t> run_compiler(const std::string& text, const std::stri
     options.disableOptimizer = true; // Drivers optimize; spirv-opt takes a second and gains nothing that was measured.
     options.validate = false;
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv, &options);
+    spirv = drop_argument_copies(spirv);
 #ifndef NDEBUG
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
     std::string complaint;
     tools.SetMessageConsumer(
         [&](spv_message_level_t, const char*, const spv_position_t&, const char* message) { complaint += message; });
     if (!tools.Validate(spirv)) {
-        throw Error("kernel '" + name + "'", "glslang made invalid SPIR-V: " + complaint);
+        throw Error("kernel '" + name + "'", "invalid SPIR-V was made of it: " + complaint);
     }
 #endif
     return spirv;

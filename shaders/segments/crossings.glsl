@@ -146,14 +146,16 @@ core_crossing core_next_crossing(core_polynomial bernstein, elvis_real error, ui
     crossing.index = 0u;
     crossing.t = elvis_real(0);
     uint level = 0u, place = 0u;
+    core_polynomial restricted = bernstein;
     while (crossing.kind == CORE_CROSSING_NONE && !core_isolation_is_over(isolation)) {
         level = isolation.level;
         place = isolation.index;
-        crossing = core_look_at(core_restricted(bernstein, level, place), error, n_values, isolation);
+        restricted = core_restricted(bernstein, level, place);
+        crossing = core_look_at(restricted, error, n_values, isolation);
     }
     const elvis_real size = crossing.kind == CORE_CROSSING_NONE ? elvis_real(0) : elvis_real(1) / elvis_real(1u << level);
     if (crossing.kind == CORE_CROSSING_VERIFIED || crossing.kind == CORE_CROSSING_PROBABLE) {
-        crossing.t = core_polynomial_root(core_restricted(bernstein, level, place), core_listed_value(crossing.index));
+        crossing.t = core_polynomial_root(restricted, core_listed_value(crossing.index));
     }
     crossing.t = (elvis_real(place) + crossing.t) * size;
     crossing.lower = elvis_real(place) * size;

@@ -21,7 +21,7 @@
 struct core_follower {
     // The last point that was found, and the one before that; the same one if there is none.
     core_ray_point known, before;
-    // Parameter wanted in the end, and the one that is looked for; the prediction for that.
+    // Parameter wanted in the end, and the one that is looked for; the prediction for that, from the first step on.
     elvis_real goal, at, x, y, z;
     // How far from the goal on, or back, `bend` is wanted; error of the field that is good enough.
     elvis_real span, enough;
@@ -52,30 +52,24 @@ core_follower core_follow_from(core_ray_point known) {
 
 // By the cubic through the last two points and their slopes, between them or not much farther beyond the last one than they are apart; else
 // along the last one's slope.
-void core_predict_point(inout core_follower follower, elvis_real at) {
+elvis_vec3 core_predict_point(const core_follower follower) {
     const core_ray_point known = follower.known, before = follower.before;
-    const elvis_real since = at - known.t, width = before.t - known.t;
+    const elvis_real since = follower.at - known.t, width = before.t - known.t;
     const bool is_near = (since - width) * (since + elvis_real(1.5LF) * width) < elvis_real(0);
     const elvis_real t = is_near ? since / width : elvis_real(0), s = elvis_real(1) - t;
     const elvis_real of_before = t * t * (elvis_real(3) - elvis_real(2) * t), of_slope = is_near ? width * t * s * s : since;
     const elvis_real of_slope_before = -width * t * t * s;
     // Far predictions are of no use but for their direction, and could overflow.
-    const elvis_vec3 point = clamp(core_xi_of(known) + of_before * (core_xi_of(before) - core_xi_of(known)) +
-                                       of_slope * core_slope_of(known) + of_slope_before * core_slope_of(before),
-                                   elvis_vec3(-4), elvis_vec3(4));
-    follower.at = at;
-    follower.x = point.x;
-    follower.y = point.y;
-    follower.z = point.z;
-    follower.steps = 0u;
+    return clamp(core_xi_of(known) + of_before * (core_xi_of(before) - core_xi_of(known)) + of_slope * core_slope_of(known) +
+                     of_slope_before * core_slope_of(before),
+                 elvis_vec3(-4), elvis_vec3(4));
 }
 
 void core_follow_to(inout core_follower follower, elvis_real goal, elvis_real span, elvis_real enough) {
-    follower.goal = goal;
+    follower.goal = follower.at = goal;
     follower.span = span;
     follower.enough = enough;
-    follower.all_steps = 0u;
-    core_predict_point(follower, goal);
+    follower.steps = follower.all_steps = 0u;
 }
 
 // The field at a point of the ray that is off by `off` and `rounding` at most, and how far it may be from a line over the span. `step`: of
@@ -132,6 +126,12 @@ bool core_sample_is_enough(const core_ray_sample result, elvis_real span, elvis_
 // One evaluation.
 core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_real element_curvature, inout core_follower follower) {
     core_ray_sample result;
+    if (follower.steps == 0u) {
+        const elvis_vec3 predicted = core_predict_point(follower);
+        follower.x = predicted.x;
+        follower.y = predicted.y;
+        follower.z = predicted.z;
+    }
     elvis_real x = follower.x, y = follower.y, z = follower.z;
     core_project(x, y, z);
     const elvis_vec3 xi = elvis_vec3(x, y, z);
@@ -170,7 +170,8 @@ core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_
     follower.y = is_sound ? clamp(found.y, -limit, limit) : follower.y;
     follower.z = is_sound ? clamp(found.z, -limit, limit) : follower.z;
     if (is_stuck || (is_found && !is_there)) {
-        core_predict_point(follower, is_found ? follower.goal : elvis_real(0.5LF) * (follower.known.t + follower.at));
+        follower.at = is_found ? follower.goal : elvis_real(0.5LF) * (follower.known.t + follower.at);
+        follower.steps = 0u;
     }
     const bool is_given_up = follower.all_steps >= CORE_SAMPLE_MOST_STEPS;
     result.status = is_there ? CORE_SAMPLE_FOUND : is_given_up ? CORE_SAMPLE_FAILED : CORE_SAMPLE_RUNNING;
