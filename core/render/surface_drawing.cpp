@@ -8,7 +8,7 @@ namespace elvis {
 namespace {
 
 /** The number of what is drawn: a layer holds one surface. Each class of faces counts as one, so that the nearest wins. */
-constexpr std::uint32_t first = 1;
+constexpr std::uint32_t first_surface = 1;
 
 ShownComponent shown_component(const Surface& surface, const ShownFields& fields, Precision precision) {
     ShownComponent component = fields.component(surface.field);
@@ -87,7 +87,7 @@ void SurfaceDrawing::draw_field(const FieldChoice& field, const LayerTarget& tar
     }
     // Planes write no places: the same points are found again.
     values.marks.fill(0);
-    passes.cut_planes(false).draw(m_rays, first, component, {}, {.layer = values, .wants_normals = false}, counts);
+    passes.cut_planes(false).draw(m_rays, first_surface, component, {}, {.layer = values, .wants_normals = false}, counts);
 }
 
 ConditionLimit SurfaceDrawing::limit_of(const Condition& condition) {
@@ -135,7 +135,7 @@ void SurfaceDrawing::draw_lines(const Kind& kind, const Buffer* bending, const B
 void SurfaceDrawing::provide(const CutPlane&) { m_own.cut_planes(m_surface.has_lines()); }
 
 void SurfaceDrawing::draw(const CutPlane&, const LayerTarget& target, FrameCounts& counts) {
-    m_own.cut_planes(m_surface.has_lines()).draw(m_rays, first, m_component, m_lines, target, counts);
+    m_own.cut_planes(m_surface.has_lines()).draw(m_rays, first_surface, m_component, m_lines, target, counts);
 }
 
 void SurfaceDrawing::finish(const CutPlane&, const LayerTarget& target, FrameCounts& counts) {
@@ -144,7 +144,7 @@ void SurfaceDrawing::finish(const CutPlane&, const LayerTarget& target, FrameCou
         pass.draw_lines(m_component, m_lines, target, counts);
     }
     if (m_surface.outside) {
-        pass.draw_outside(m_rays, first, target);
+        pass.draw_outside(m_rays, first_surface, target);
     }
 }
 
@@ -157,8 +157,8 @@ void SurfaceDrawing::provide(const CutShape& shape) {
 }
 
 void SurfaceDrawing::draw(const CutShape& shape, const LayerTarget& target, FrameCounts& counts) {
-    m_own.cut_shapes().draw(m_rays, m_passes.solver(shape), shape, first, m_component, m_surface.outside.has_value(), target,
-                            counts);
+    m_own.cut_shapes().draw(m_rays, m_passes.solver(shape), shape, first_surface, m_component, m_surface.outside.has_value(),
+                            target, counts);
 }
 
 void SurfaceDrawing::finish(const CutShape& shape, const LayerTarget& target, FrameCounts& counts) {
@@ -177,7 +177,7 @@ void SurfaceDrawing::provide(const Isosurfaces& isosurfaces) {
 }
 
 void SurfaceDrawing::draw(const Isosurfaces& isosurfaces, const LayerTarget& target, FrameCounts& counts) {
-    m_passes.of(isosurfaces.field).isosurfaces().draw(m_rays, m_surface.clip, first, target, counts);
+    m_passes.of(isosurfaces.field).isosurfaces().draw(m_rays, m_surface.clip, first_surface, target, counts);
 }
 
 void SurfaceDrawing::finish(const Isosurfaces& isosurfaces, const LayerTarget& target, FrameCounts& counts) {
@@ -192,7 +192,7 @@ void SurfaceDrawing::finish(const Isosurfaces& isosurfaces, const LayerTarget& t
 void SurfaceDrawing::provide(const WireFrame& wires) { m_passes.edges(wires); }
 
 void SurfaceDrawing::draw(const WireFrame& wires, const LayerTarget& target, FrameCounts&) {
-    m_edge_pass.draw(m_passes.edges(wires), m_request.camera, m_request.place(), wires.width, -m_offset, first, target);
+    m_edge_pass.draw(m_passes.edges(wires), m_request.camera, m_request.place(), wires.width, -m_offset, first_surface, target);
 }
 
 void SurfaceDrawing::finish(const WireFrame&, const LayerTarget&, FrameCounts&) {}
@@ -203,7 +203,7 @@ void SurfaceDrawing::provide(const FaceGeometry& faces) {
 }
 
 void SurfaceDrawing::draw(const FaceGeometry& faces, const LayerTarget& target, FrameCounts& counts) {
-    m_own.faces(m_passes.faces(faces)).draw(m_rays, first, m_component, target, counts);
+    m_own.faces(m_passes.faces(faces)).draw(m_rays, first_surface, m_component, target, counts);
 }
 
 void SurfaceDrawing::finish(const FaceGeometry& faces, const LayerTarget& target, FrameCounts& counts) {

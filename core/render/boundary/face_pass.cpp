@@ -11,20 +11,20 @@ namespace elvis {
 namespace {
 
 /** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
-constexpr std::uint32_t tile_stride = 64;
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t face_tile_stride = 64;
+constexpr std::uint32_t face_group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+constexpr std::uint32_t face_pixels_a_dispatch = 1u << 17;
 /** Those of the careful kernel: each may take a hundred times as long. */
 constexpr std::uint32_t careful_pixels_a_dispatch = 1u << 15;
 /** Evaluations, steps, failures; pixels left to the careful kernel. */
-constexpr std::size_t n_counts = n_pass_counts + 1;
+constexpr std::size_t n_face_counts = n_pass_counts + 1;
 
-struct TilesParameters {
+struct FaceTilesParameters {
     std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
 };
 
-struct Parameters {
+struct FaceParameters {
     std::uint32_t width, height;
     std::uint32_t tiles_a_row;
     std::uint32_t first;
@@ -55,7 +55,7 @@ const ComposedKernel& FacePass::ClassKernels::provide(const Device& device, Draw
 FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data, const FaceSet& faces)
     : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
       m_tile_height(tile_height_on(device)), m_listed(device), m_frame(view_buffer(device, data.precision())),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_counts(device, n_face_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         const FaceSet::ClassFaces& own = faces.of_class(index);
         if (own.n_faces == 0) {
@@ -71,7 +71,7 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         request.name = "ray_tiles";
         request.kernel = "tiles/ray_tiles.comp";
         request.bindings = buffer_bindings({.uniform = 1, .storage = 2});
-        request.push_constant_bytes = sizeof(TilesParameters);
+        request.push_constant_bytes = sizeof(FaceTilesParameters);
         kernels.tiles = std::make_unique<ComposedKernel>(device, request);
 
         request.buffers = {{"core_nodes", own.nodes.get()},
@@ -84,7 +84,7 @@ FacePass::FacePass(const Device& device, const RuntimeVolume& volume, const Devi
         }
         request.bindings = buffer_bindings({.uniform = 1, .storage = 9});
         request.defines.emplace_back("CORE_CLASS", std::to_string(index) + "u");
-        request.push_constant_bytes = sizeof(Parameters);
+        request.push_constant_bytes = sizeof(FaceParameters);
         kernels.request = request;
         kernels.element_class = index;
         kernels.provide(m_device, Draws::pixels);
@@ -99,10 +99,10 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
     const std::uint32_t tile_rows = divided_up(layer.height, m_tile_height);
     const std::uint32_t n_tiles = tiles_a_row * tile_rows;
     const TileRows wanted = target.tile_rows(m_tile_height);
-    const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+    const Buffer& tiles = provide_buffer(m_tiles, m_device, std::uint64_t{n_tiles} * face_tile_stride * sizeof(std::uint32_t));
     const Buffer& list = provide_buffer(m_list, m_device, std::uint64_t{layer.width} * layer.height * sizeof(std::uint32_t));
     write_view(m_frame, m_precision, view);
-    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * m_tile_height));
+    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, face_pixels_a_dispatch / (m_tile_width * m_tile_height));
     // The last one is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const Buffer& places = target.places ? *target.places : layer.normals;
@@ -112,22 +112,22 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
         const Buffer& listed = m_listed.begin(n_tiles);
         const std::array<const Buffer*, 10> bindings = {&m_frame, &layer.samples, &layer.normals, &m_counts, &layer.marks,
                                                         &tiles,   &list,          &beyond,        &places,   &listed};
-        const TilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row};
+        const FaceTilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row};
         const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &tiles, &listed};
         kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&of_tiles, 1)),
-                                divided_up(of_tiles.end_tile - of_tiles.first_tile, group_size));
-        Parameters parameters{layer.width,
-                              layer.height,
-                              tiles_a_row,
-                              0,
-                              first_surface + index,
-                              component.first(),
-                              component.end(),
-                              component.is_discontinuous ? 1u : 0u,
-                              component.value_tolerance,
-                              target.beyond ? 1u : 0u,
-                              target.wants_normals ? 1u : 0u,
-                              target.places ? 1u : 0u};
+                                divided_up(of_tiles.end_tile - of_tiles.first_tile, face_group_size));
+        FaceParameters parameters{layer.width,
+                                  layer.height,
+                                  tiles_a_row,
+                                  0,
+                                  first_surface + index,
+                                  component.first(),
+                                  component.end(),
+                                  component.is_discontinuous ? 1u : 0u,
+                                  component.value_tolerance,
+                                  target.beyond ? 1u : 0u,
+                                  target.wants_normals ? 1u : 0u,
+                                  target.places ? 1u : 0u};
         const auto draw_tiles = [&](Draws what, const TileList::Range& range) {
             in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first = range.first + first;
@@ -141,7 +141,7 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
                 .dispatch_indirect(bindings, std::as_bytes(std::span(&parameters, 1)), m_listed.groups());
         }
         std::array<std::uint32_t, TileList::n_header_words> header{};
-        std::array<std::uint32_t, n_counts> found{};
+        std::array<std::uint32_t, n_face_counts> found{};
         const Buffer::Read of_counts{&m_counts, std::as_writable_bytes(std::span(found))};
         Buffer::read_together({{&listed, std::as_writable_bytes(std::span(header))}, of_counts});
         const TileList::Ranges ranges = m_listed.ranges(header);
@@ -153,11 +153,11 @@ void FacePass::draw(const CutPlaneGeometry& view, std::uint32_t first_surface, c
             Buffer::read_together({of_counts});
         }
         const std::uint32_t n_careful = found[n_pass_counts];
-        in_batches(n_careful, items_a_dispatch(m_device, careful_pixels_a_dispatch, group_size),
+        in_batches(n_careful, items_a_dispatch(m_device, careful_pixels_a_dispatch, face_group_size),
                    [&](std::uint32_t first, std::uint32_t count) {
                        parameters.first = first;
                        kernels.provide(m_device, Draws::careful)
-                           .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+                           .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, face_group_size));
                    });
         add_pass_counts(layer, m_counts, counts);
         counts.careful_pixels += n_careful;

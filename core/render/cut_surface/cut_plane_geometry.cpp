@@ -10,7 +10,17 @@ namespace elvis {
 
 namespace {
 
+/** Of the largest coordinate: more than data that come in double precision are off
+ * (shaders/cut_surface/element_candidate.glsl). */
+constexpr double data_roundings = 1e-14;
+
+double size_of(const std::array<double, 3>& point) {
+    return std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
+}
+
 // More digits than double where the machine has them: what double precision draws is limited by these numbers.
+namespace extended {
+
 using Real = long double;
 using Vector = std::array<Real, 3>;
 
@@ -24,21 +34,18 @@ Vector unit(const Vector& a) { return scaled(a, 1 / std::sqrt(dot(a, a))); }
 Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/** Of the largest coordinate: more than data that come in double precision are off
- * (shaders/cut_surface/element_candidate.glsl). */
-constexpr double data_roundings = 1e-14;
 
-double size_of(const std::array<double, 3>& point) {
-    return std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
-}
 std::array<double, 4> row(const Vector& xyz, Real w) {
     return {static_cast<double>(xyz[0]), static_cast<double>(xyz[1]), static_cast<double>(xyz[2]), static_cast<double>(w)};
 }
+
+} // namespace extended
 
 } // namespace
 
 CutPlaneGeometry cut_plane_geometry(const CutPlane& plane, const Camera& camera, std::uint32_t width, std::uint32_t height,
                                     const std::array<double, 3>& centre) {
+    using namespace extended;
     const Vector eye = convert(camera.eye);
     const Vector axis = unit(plus(convert(camera.look_at), eye, -1));
     const Vector right = unit(cross(axis, convert(camera.up)));

@@ -13,15 +13,15 @@ namespace elvis {
 namespace {
 
 /** Nodes of a tile and their number: shaders/tiles/node_tiles.glsl. */
-constexpr std::uint32_t tile_stride = 32;
-constexpr std::uint32_t tiles_group_size = 32;
+constexpr std::uint32_t plane_tile_stride = 32;
+constexpr std::uint32_t plane_tiles_group_size = 32;
 /**
  * Pixels of one dispatch: bounds its time, so that no driver's time limit is met. Software drivers give each thread one share
  * of consecutive groups: in a dispatch of few tiles all shares have about the same to do.
  */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+constexpr std::uint32_t plane_pixels_a_dispatch = 1u << 17;
 
-struct TilesParameters {
+struct PlaneTilesParameters {
     std::uint32_t tiles_a_row, n_tiles;
 };
 
@@ -35,7 +35,7 @@ struct PixelsParameters {
     std::uint32_t n_isovalues;
 };
 
-struct ListParameters {
+struct PlaneListParameters {
     std::uint32_t n_pixels, groups_x;
     std::uint32_t width, tiles_a_row;
 };
@@ -51,7 +51,7 @@ struct LinesParameters {
 
 constexpr std::uint32_t lines_group_size = 32;
 /** Pixels looked at closely in one dispatch. */
-constexpr std::uint32_t listed_a_dispatch = 1u << 15;
+constexpr std::uint32_t plane_listed_a_dispatch = 1u << 15;
 
 } // namespace
 
@@ -78,7 +78,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         request.name = "cut_tiles";
         request.kernel = "cut_surface/cut_tiles.comp";
         request.bindings = buffer_bindings({.uniform = 1, .storage = 2});
-        request.push_constant_bytes = sizeof(TilesParameters);
+        request.push_constant_bytes = sizeof(PlaneTilesParameters);
         ClassKernels kernels;
         kernels.element_class = index;
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
@@ -106,7 +106,7 @@ void CutPlanePass::compile(const RuntimeVolume& volume, const DeviceVolume& data
         m_kernels.push_back(std::move(kernels));
     }
     if (m_with_lines) {
-        KernelRequest request = pixel_kernel("picture/list_pixels", m_precision, {.storage = 4}, sizeof(ListParameters));
+        KernelRequest request = pixel_kernel("picture/list_pixels", m_precision, {.storage = 4}, sizeof(PlaneListParameters));
         request.defines.insert(request.defines.end(), tile_size.begin(), tile_size.end());
         m_list_pixels.emplace(m_device, request);
     }
@@ -159,11 +159,13 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
     const std::uint32_t tile_rows = divided_up(layer.height, m_tile_height);
-    provide_buffer(kernels.tile_nodes, m_device, std::uint64_t{tiles_a_row} * tile_rows * tile_stride * sizeof(std::uint32_t));
-    const TilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
+    provide_buffer(kernels.tile_nodes, m_device,
+                   std::uint64_t{tiles_a_row} * tile_rows * plane_tile_stride * sizeof(std::uint32_t));
+    const PlaneTilesParameters tiles{tiles_a_row, tiles_a_row * tile_rows};
     const Buffer& listed = m_listed.begin(tiles.n_tiles);
     const std::array<const Buffer*, 3> tiles_bindings = {&m_frame, &*kernels.tile_nodes, &listed};
-    kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)), divided_up(tiles.n_tiles, tiles_group_size));
+    kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
+                            divided_up(tiles.n_tiles, plane_tiles_group_size));
     // Isovalues are not read without lines: anything of reals.
     const Buffer& isovalues = m_with_lines ? *m_isovalues : layer.samples;
     const auto [open, wanted_reaches] = m_open.begin(kernels.element_class, layer.n_pixels());
@@ -177,7 +179,7 @@ void CutPlanePass::draw_pixels(ClassKernels& kernels, std::uint32_t surface, con
                                                     &m_others.begin(layer.n_pixels(), component),
                                                     open,
                                                     wanted_reaches};
-    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * m_tile_height));
+    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, plane_pixels_a_dispatch / (m_tile_width * m_tile_height));
     PixelsParameters pixels{layer.width,
                             layer.height,
                             TileList::n_header_words,
@@ -208,14 +210,14 @@ void CutPlanePass::draw_lines(const ClassKernels& kernels, const ShownComponent&
     provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
     const Buffer n_listed_buffer(m_device, sizeof(std::uint32_t));
     n_listed_buffer.fill(0);
-    const ListParameters list{n_pixels, pixel_groups_x, layer.width, tiles_a_row};
+    const PlaneListParameters list{n_pixels, pixel_groups_x, layer.width, tiles_a_row};
     dispatch_pixels(*m_list_pixels, {&layer.marks, &*kernels.tile_nodes, &*m_list, &n_listed_buffer},
                     std::as_bytes(std::span(&list, 1)), n_pixels);
     const std::uint32_t n_listed = n_listed_buffer.read_items<std::uint32_t>(1)[0];
     counts.refined_pixels += n_listed;
     const std::array<const Buffer*, 7> bindings = {&m_frame,     &*kernels.tile_nodes, &*m_list,      &m_counts,
                                                    &layer.marks, &*m_isovalues,        &layer.samples};
-    in_batches(n_listed, items_a_dispatch(m_device, listed_a_dispatch, lines_group_size),
+    in_batches(n_listed, items_a_dispatch(m_device, plane_listed_a_dispatch, lines_group_size),
                [&](std::uint32_t first, std::uint32_t count) {
                    const LinesParameters parameters{layer.width,
                                                     tiles_a_row,

@@ -12,11 +12,11 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t open_points_group_size = 32;
 /** Words of an entry of the list: shaders/cut_surface/open_points.glsl. */
 constexpr std::uint64_t open_point_size = 3;
 /** Pixels of one dispatch: bounds its time. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 15;
+constexpr std::uint32_t open_points_pixels_a_dispatch = 1u << 15;
 
 } // namespace
 
@@ -66,7 +66,8 @@ void OpenPoints::provide_kernels(std::uint32_t element_class) {
     request.buffers = m_data.host_buffers(element_class);
     std::ranges::copy(buffers(element_class), std::back_inserter(request.buffers));
     std::ranges::copy(of_class.octants->buffers(), std::back_inserter(request.buffers));
-    request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}, {"CORE_ON_PLANE", m_is_on_plane ? "1" : "0"}};
+    request.defines = {{"CORE_GROUP_SIZE", std::to_string(open_points_group_size)},
+                       {"CORE_ON_PLANE", m_is_on_plane ? "1" : "0"}};
     request.bindings = buffer_bindings({.uniform = 1, .storage = m_is_on_plane ? 6u : 7u});
     request.push_constant_bytes = sizeof(PointParameters);
     of_class.sift = std::make_unique<ComposedKernel>(m_device, request);
@@ -117,10 +118,11 @@ void OpenPoints::dispatch(const ComposedKernel& kernel, const Buffer& output, co
         }
     }
     PointParameters parameters(surface.target, surface.number, surface.component, surface.most_error);
-    in_batches(n_listed, items_a_dispatch(m_device, pixels_a_dispatch, group_size),
+    in_batches(n_listed, items_a_dispatch(m_device, open_points_pixels_a_dispatch, open_points_group_size),
                [&](std::uint32_t first, std::uint32_t count) {
                    parameters.first = first;
-                   kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+                   kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                   divided_up(count, open_points_group_size));
                });
 }
 

@@ -9,11 +9,11 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 64;
+constexpr std::uint32_t other_values_group_size = 64;
 /** Entries of one dispatch: bounds its time. */
 constexpr std::uint32_t entries_a_dispatch = 1u << 18;
 
-struct Parameters {
+struct OtherValuesParameters {
     std::uint32_t first;
     std::uint32_t first_component, end_component;
     float value_tolerance;
@@ -41,9 +41,9 @@ const ComposedKernel& OtherValues::kernel(std::uint32_t element_class) {
         request.kernel = "cut_surface/other_values.comp";
         request.precision = m_data.precision();
         m_data.add_field(request, element_class);
-        request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}};
+        request.defines = {{"CORE_GROUP_SIZE", std::to_string(other_values_group_size)}};
         request.bindings = buffer_bindings({.storage = 3});
-        request.push_constant_bytes = sizeof(Parameters);
+        request.push_constant_bytes = sizeof(OtherValuesParameters);
         m_kernels[element_class] = std::make_unique<ComposedKernel>(m_device, request);
     }
     return *m_kernels[element_class];
@@ -53,11 +53,13 @@ void OtherValues::compare(std::uint32_t element_class, const ShownComponent& com
                           FrameCounts& counts) {
     const std::uint32_t n_listed = component.is_discontinuous ? m_list->read_items<std::uint32_t>(1)[0] : 0;
     const std::array<const Buffer*, 3> bindings = {&layer.samples, &layer.marks, &*m_list};
-    in_batches(
-        n_listed, items_a_dispatch(m_device, entries_a_dispatch, group_size), [&](std::uint32_t first, std::uint32_t count) {
-            const Parameters parameters{first, component.first(), component.end(), component.value_tolerance};
-            kernel(element_class).dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
-        });
+    in_batches(n_listed, items_a_dispatch(m_device, entries_a_dispatch, other_values_group_size),
+               [&](std::uint32_t first, std::uint32_t count) {
+                   const OtherValuesParameters parameters{first, component.first(), component.end(), component.value_tolerance};
+                   kernel(element_class)
+                       .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                 divided_up(count, other_values_group_size));
+               });
     counts.field_evaluations += std::uint64_t{n_listed} * (component.end() - component.first());
 }
 

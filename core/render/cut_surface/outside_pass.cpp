@@ -5,7 +5,7 @@ namespace elvis {
 
 namespace {
 
-struct Parameters {
+struct OutsideParameters {
     std::uint32_t n_pixels, groups_x;
     std::uint32_t width, surface;
     std::array<float, 6> box;
@@ -13,7 +13,7 @@ struct Parameters {
 
 KernelRequest outside_kernel(Precision precision, bool on_plane) {
     KernelRequest request = pixel_kernel("cut_surface/surface_outside", precision,
-                                         {.uniform = 1, .storage = on_plane ? 2u : 3u}, sizeof(Parameters));
+                                         {.uniform = 1, .storage = on_plane ? 2u : 3u}, sizeof(OutsideParameters));
     request.defines.emplace_back("CORE_ON_PLANE", on_plane ? "1" : "0");
     return request;
 }
@@ -26,7 +26,7 @@ OutsidePass::OutsidePass(const Device& device, Precision precision, bool on_plan
 void OutsidePass::draw(const Buffer& frame, const Buffer* hits, std::uint32_t surface, const LayerTarget& target) const {
     const Layer& layer = target.layer;
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    Parameters parameters{n_pixels, pixel_groups_x, layer.width, surface, {}};
+    OutsideParameters parameters{n_pixels, pixel_groups_x, layer.width, surface, {}};
     for (std::size_t i = 0; i < m_box.size(); ++i) {
         parameters.box[i] = static_cast<float>(m_box[i]);
     }

@@ -21,12 +21,12 @@ struct PointParameters {
     float most_error;
     std::uint32_t wants_places;
 
-    /** `most_error_along_ray`: of a point, where it is not on a plane. */
+    /** `most_ray_error`: of a point, where it is not on a plane. */
     PointParameters(const LayerTarget& target, std::uint32_t surface_number, const ShownComponent& component,
-                    float most_error_along_ray)
+                    float most_ray_error)
         : width(target.layer.width), height(target.layer.height), surface(surface_number), first_component(component.first()),
           end_component(component.end()), lists_others(component.is_discontinuous ? 1u : 0u),
-          value_tolerance(component.value_tolerance), most_error(most_error_along_ray),
+          value_tolerance(component.value_tolerance), most_error(most_ray_error),
           wants_places(target.places != nullptr ? 1u : 0u) {}
 };
 

@@ -16,14 +16,14 @@ namespace elvis {
 namespace {
 
 /** Nodes of a tile and their number: shaders/tiles/node_tiles.glsl. */
-constexpr std::uint32_t tile_stride = 32;
-constexpr std::uint32_t tiles_group_size = 32;
+constexpr std::uint32_t surface_tile_stride = 32;
+constexpr std::uint32_t surface_tiles_group_size = 32;
 /** Pixels of one dispatch: bounds its time, and the share of each thread of a software driver. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
+constexpr std::uint32_t surface_pixels_a_dispatch = 1u << 17;
 /** Crossings that a ray is followed through. A formula has few; triangle meshes may have many, one behind the other. */
-constexpr std::uint32_t most_rounds = 256;
+constexpr std::uint32_t most_surface_rounds = 256;
 
-struct TilesParameters {
+struct SurfaceTilesParameters {
     std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile, boxes_a_tile;
 };
 
@@ -67,7 +67,7 @@ void SurfacePass::provide_elements() {
         request.name = "surface_tiles";
         request.kernel = "cut_surface/surface_tiles.comp";
         request.bindings = buffer_bindings({.storage = 3});
-        request.push_constant_bytes = sizeof(TilesParameters);
+        request.push_constant_bytes = sizeof(SurfaceTilesParameters);
         ClassKernels kernels;
         kernels.element_class = index;
         kernels.tiles = std::make_unique<ComposedKernel>(m_device, request);
@@ -89,7 +89,7 @@ void SurfacePass::provide_buffers(std::uint64_t n_pixels, std::uint64_t n_tiles,
     provide_buffer(m_hits, m_device, 2 * n_pixels * real_bytes(m_precision));
     provide_buffer(m_bending, m_device, n_pixels * real_bytes(m_precision));
     provide_buffer(m_boxes, m_device, n_tiles * boxes_a_tile * 6 * sizeof(float));
-    provide_buffer(m_tiles, m_device, n_tiles * tile_stride * sizeof(std::uint32_t));
+    provide_buffer(m_tiles, m_device, n_tiles * surface_tile_stride * sizeof(std::uint32_t));
 }
 
 struct SurfacePass::Picture {
@@ -113,7 +113,7 @@ std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round
     }
     const std::uint32_t tile_pixels = tile_width_on(m_device) * surface_tile_height;
     const std::uint32_t rows_a_dispatch =
-        items_a_dispatch(m_device, std::max(1u, pixels_a_dispatch / (picture.tiles_a_row * tile_pixels)));
+        items_a_dispatch(m_device, std::max(1u, surface_pixels_a_dispatch / (picture.tiles_a_row * tile_pixels)));
     m_hit_counts.fill(0);
     for (std::uint32_t first_row = picture.wanted.first; first_row < picture.wanted.end; first_row += rows_a_dispatch) {
         const HitsParameters hits{layer.width,
@@ -133,12 +133,12 @@ std::uint32_t SurfacePass::find_hits(const Picture& picture, std::uint32_t round
 void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& picture, FrameCounts& counts) {
     const Layer& layer = picture.target.layer;
     const std::uint32_t tiles_a_row = picture.tiles_a_row;
-    const TilesParameters tiles{tiles_a_row, tiles_a_row * picture.tile_rows, picture.wanted.first * tiles_a_row,
-                                picture.wanted.end * tiles_a_row, picture.solver.boxes_a_tile()};
+    const SurfaceTilesParameters tiles{tiles_a_row, tiles_a_row * picture.tile_rows, picture.wanted.first * tiles_a_row,
+                                       picture.wanted.end * tiles_a_row, picture.solver.boxes_a_tile()};
     const Buffer& listed = m_listed.begin(tiles.n_tiles);
     const std::array<const Buffer*, 3> tiles_bindings = {&*m_boxes, &*m_tiles, &listed};
     kernels.tiles->dispatch(tiles_bindings, std::as_bytes(std::span(&tiles, 1)),
-                            divided_up(tiles.end_tile - tiles.first_tile, tiles_group_size));
+                            divided_up(tiles.end_tile - tiles.first_tile, surface_tiles_group_size));
     // Places are not written if they are not wanted: anything of reals.
     const Buffer& places = picture.target.places != nullptr ? *picture.target.places : layer.normals;
     const Buffer& others = m_others.begin(layer.n_pixels(), picture.component);
@@ -146,7 +146,7 @@ void SurfacePass::draw_pixels(const ClassKernels& kernels, const Picture& pictur
     const std::array<const Buffer*, 11> bindings = {&m_frame, &layer.samples, &*m_tiles, &m_counts, &layer.marks,  &*m_hits,
                                                     &others,  &places,        &listed,   open,      wanted_reaches};
     const std::uint32_t tiles_a_dispatch =
-        items_a_dispatch(m_device, pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height));
+        items_a_dispatch(m_device, surface_pixels_a_dispatch / (tile_width_on(m_device) * surface_tile_height));
     PointParameters pixels(picture.target, picture.surface, picture.component, static_cast<float>(picture.most_error));
     const auto push_constants = std::as_bytes(std::span(&pixels, 1));
     if (m_listed.is_indirect()) {
@@ -182,7 +182,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
     const OpenPoints::Surface open{
         surface, component, target, m_frame, m_counts, &*m_hits, static_cast<float>(picture.most_error)};
     std::uint32_t n_found_before = 0;
-    for (std::uint32_t round = 0; round < most_rounds; ++round) {
+    for (std::uint32_t round = 0; round < most_surface_rounds; ++round) {
         const std::uint32_t n_hits = find_hits(picture, round);
         if (n_hits == 0 || solver.has_own_values()) {
             break;
@@ -204,7 +204,7 @@ void SurfacePass::draw(const CutPlaneGeometry& view, const SurfaceSolver& solver
         }
         n_found_before = n_found;
         // Rays that meet more crossings outside of elements than are followed.
-        counts.work_limit_pixels += round + 1 == most_rounds ? n_open : 0;
+        counts.work_limit_pixels += round + 1 == most_surface_rounds ? n_open : 0;
     }
     add_pass_counts(target.layer, m_counts, counts);
 }

@@ -35,12 +35,12 @@ SolverKind kind_of(const std::string& solver) {
     return {solver, {{"CORE_HAS_ENDS", "0"}}};
 }
 
-struct Box {
+struct SolvedBox {
     Vector3 lower{infinity, infinity, infinity}, upper{-infinity, -infinity, -infinity};
 };
 
 /** Adds a point's coordinates about the middle, which the device rounds, and makes the box hold it. */
-void add_point(const Vector3& point, const Vector3& middle, Box& box, std::vector<double>& numbers) {
+void add_point(const Vector3& point, const Vector3& middle, SolvedBox& box, std::vector<double>& numbers) {
     for (std::size_t i = 0; i < 3; ++i) {
         box.lower[i] = std::min(box.lower[i], point[i]);
         box.upper[i] = std::max(box.upper[i], point[i]);
@@ -49,7 +49,7 @@ void add_point(const Vector3& point, const Vector3& middle, Box& box, std::vecto
 }
 
 /** Adds a box, and what single precision may move its points. */
-void add_box(const Box& box, const Vector3& middle, std::vector<double>& numbers) {
+void add_box(const SolvedBox& box, const Vector3& middle, std::vector<double>& numbers) {
     Vector3 rounding{};
     for (std::size_t i = 0; i < 3; ++i) {
         rounding[i] = 1.2e-7 * std::max(std::abs(box.lower[i] - middle[i]), std::abs(box.upper[i] - middle[i]));
@@ -188,7 +188,7 @@ void SurfaceSolver::upload(const TriangleMesh& mesh, const Vector3& middle) {
     corners.reserve(9 * mesh.triangles.size());
     boxes.reserve(6 * mesh.triangles.size());
     for (const auto& triangle : mesh.triangles) {
-        Box box;
+        SolvedBox box;
         for (const std::uint32_t corner : triangle) {
             add_point(mesh.points[corner], middle, box, corners);
         }
@@ -206,7 +206,7 @@ void SurfaceSolver::upload(const PatchMesh& mesh, const Vector3& middle) {
         const int n = bezier_parts(patch);
         for (int i = 0; i < n; ++i) {
             for (int j = 0; j < n; ++j) {
-                Box box;
+                SolvedBox box;
                 for (const auto& point : patch.part(static_cast<double>(i) / n, static_cast<double>(j) / n, 1.0 / n).points) {
                     add_point(point, middle, box, points);
                 }
@@ -227,7 +227,7 @@ void SurfaceSolver::upload(const TubeSet& tubes, const Vector3& middle) {
                 points.push_back(point[i] - middle[i]);
             }
         }
-        Box box;
+        SolvedBox box;
         std::vector<double> corners;
         for (const double side : {-tubes.radius, tubes.radius}) {
             add_point(plus(piece[1], {side, side, side}), middle, box, corners);
@@ -243,7 +243,7 @@ void SurfaceSolver::upload(const TubeSet& tubes, const Vector3& middle) {
 void SurfaceSolver::upload(const RibbonSet& ribbons, const Vector3& middle) {
     std::vector<double> corners, boxes;
     for (const RibbonSet::Piece& piece : ribbons.pieces) {
-        Box box;
+        SolvedBox box;
         for (const Vector3& corner : piece) {
             add_point(corner, middle, box, corners);
         }
@@ -266,7 +266,7 @@ void SurfaceSolver::upload(const ArrowSet& set, const Vector3& middle) {
         numbers.insert(numbers.end(), {arrow.value, 0});
         elements.push_back(arrow.number);
         const std::array<double, 6> bounds = bounds_of(arrow);
-        Box box;
+        SolvedBox box;
         std::vector<double> corners;
         add_point({bounds[0], bounds[1], bounds[2]}, middle, box, corners);
         add_point({bounds[3], bounds[4], bounds[5]}, middle, box, corners);

@@ -12,7 +12,7 @@ namespace elvis {
 namespace {
 
 /** Of all elements together, about, where there are not more elements. */
-constexpr double n_samples = 5000;
+constexpr double n_chosen_samples = 5000;
 /** Of a value found by place, relative to the field's largest: of mappings inverted to about 1e-15, and of the basis. */
 constexpr double relative_rounding = 1e-14;
 
@@ -34,7 +34,7 @@ std::vector<Vector3> lattice_in(elvis_shape shape, std::uint32_t dimension, int 
 }
 
 std::vector<ReferencePoint> sample_places(const RuntimeVolume& volume) {
-    const double for_each = n_samples / static_cast<double>(std::max<std::uint64_t>(1, volume.n_elements()));
+    const double for_each = n_chosen_samples / static_cast<double>(std::max<std::uint64_t>(1, volume.n_elements()));
     const int n = std::clamp(static_cast<int>(std::lround(std::pow(for_each, 1.0 / volume.dimension()))), 2, 7);
     std::vector<ReferencePoint> places;
     for (const ClassInfo& info : volume.classes()) {

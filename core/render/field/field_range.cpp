@@ -17,7 +17,7 @@ namespace {
 
 /** Elements whose ranges a thread asks for at once. */
 constexpr std::uint64_t ranges_block = 16384;
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t range_group_size = 32;
 
 void include(FieldRange& range, double lower, double upper) {
     range.lower = std::min(range.lower, lower);
@@ -78,7 +78,7 @@ double rounding_of_expression(const Device& device, const RuntimeVolume& volume,
         const Buffer output(device, parameters.n_sampled * real_bytes(data.precision()));
         const std::array<const Buffer*, 1> bindings = {&output};
         ComposedKernel(device, request)
-            .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(parameters.n_sampled, group_size));
+            .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(parameters.n_sampled, range_group_size));
         for (const double error : read_reals(output, data.precision(), parameters.n_sampled)) {
             largest = std::max(largest, error);
         }

@@ -7,11 +7,11 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 64;
+constexpr std::uint32_t point_value_group_size = 64;
 /** Pixels of one dispatch: bounds its time. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 18;
+constexpr std::uint32_t point_value_pixels_a_dispatch = 1u << 18;
 
-struct Parameters {
+struct PointValueParameters {
     std::uint32_t first, n_pixels;
     std::uint32_t first_component, end_component;
 };
@@ -29,9 +29,10 @@ PointValuePass::PointValuePass(const Device& device, const RuntimeVolume& volume
         request.kernel = "field/point_values.comp";
         request.precision = data.precision();
         data.add_field(request, index);
-        request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}, {"CORE_CLASS", std::to_string(index) + "u"}};
+        request.defines = {{"CORE_GROUP_SIZE", std::to_string(point_value_group_size)},
+                           {"CORE_CLASS", std::to_string(index) + "u"}};
         request.bindings = buffer_bindings({.storage = 4});
-        request.push_constant_bytes = sizeof(Parameters);
+        request.push_constant_bytes = sizeof(PointValueParameters);
         m_kernels.push_back(std::make_unique<ComposedKernel>(device, request));
     }
 }
@@ -42,10 +43,11 @@ void PointValuePass::draw(const ShownComponent& component, const LayerTarget& ta
     const auto n_pixels = static_cast<std::uint32_t>(target.layer.n_pixels());
     const std::array<const Buffer*, 4> bindings = {&samples, &target.layer.marks, target.places, &m_counts};
     for (const std::unique_ptr<ComposedKernel>& kernel : m_kernels) {
-        in_batches(n_pixels, items_a_dispatch(m_device, pixels_a_dispatch, group_size),
+        in_batches(n_pixels, items_a_dispatch(m_device, point_value_pixels_a_dispatch, point_value_group_size),
                    [&](std::uint32_t first, std::uint32_t count) {
-                       const Parameters parameters{first, n_pixels, component.first(), component.end()};
-                       kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+                       const PointValueParameters parameters{first, n_pixels, component.first(), component.end()};
+                       kernel->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                        divided_up(count, point_value_group_size));
                    });
     }
     counts.field_evaluations += m_counts.read_items<std::uint32_t>(1)[0];

@@ -15,18 +15,18 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t sampled_group_size = 32;
 /** Boxes of one dispatch: bounds its time. */
 constexpr std::size_t boxes_a_dispatch = 65536;
 /** shaders/field/sampled_range.comp */
-constexpr std::uint32_t samples_a_direction = 7, n_samples = 343, samples_a_dispatch = 7;
+constexpr std::uint32_t samples_a_direction = 7, n_range_samples = 343, samples_a_dispatch = 7;
 /** Of a sample's distance from the best one over that of the extrema: nearer ones are refined, but no more than some. */
 constexpr double refined_share = 0.1;
 constexpr std::size_t most_refined = 256;
 /** The last samples of them are 3^-9 apart. */
 constexpr int refinements = 8;
 
-struct Box {
+struct SampledBox {
     std::uint32_t element = 0; ///< In its class.
     std::array<double, 3> middle{};
     double half = 1;
@@ -38,7 +38,7 @@ struct BoxSamples {
     std::uint32_t lowest, highest;
 };
 
-struct Parameters {
+struct SampledParameters {
     std::uint32_t n_boxes, component, n_components, first_sample, end_sample;
 };
 
@@ -53,16 +53,17 @@ public:
     }
 
     /** A component, or with several of them the magnitude. */
-    std::vector<BoxSamples> sample(std::span<const Box> boxes, std::uint32_t component, std::uint32_t n_components) const {
+    std::vector<BoxSamples> sample(std::span<const SampledBox> boxes, std::uint32_t component,
+                                   std::uint32_t n_components) const {
         std::vector<BoxSamples> result;
         for (std::size_t first = 0; first < boxes.size(); first += boxes_a_dispatch) {
-            const std::span<const Box> some = boxes.subspan(first, std::min(boxes_a_dispatch, boxes.size() - first));
+            const std::span<const SampledBox> some = boxes.subspan(first, std::min(boxes_a_dispatch, boxes.size() - first));
             write(some);
             const auto n = static_cast<std::uint32_t>(some.size());
             const std::array<const Buffer*, 4> bindings = {&m_ranges, &m_samples, &m_elements, &m_boxes};
-            for (std::uint32_t at = 0; at < n_samples; at += samples_a_dispatch) {
-                const Parameters parameters{n, component, n_components, at, at + samples_a_dispatch};
-                m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(n, group_size));
+            for (std::uint32_t at = 0; at < n_range_samples; at += samples_a_dispatch) {
+                const SampledParameters parameters{n, component, n_components, at, at + samples_a_dispatch};
+                m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(n, sampled_group_size));
             }
             const std::vector<double> ranges = read_reals(m_ranges, m_precision, 2 * some.size());
             const auto samples = m_samples.read_items<std::uint32_t>(2 * some.size());
@@ -83,14 +84,14 @@ private:
         request.buffers = data.host_buffers(element_class);
         data.add_field(request, element_class);
         request.bindings = buffer_bindings({.storage = 4});
-        request.push_constant_bytes = sizeof(Parameters);
+        request.push_constant_bytes = sizeof(SampledParameters);
         return request;
     }
 
-    void write(std::span<const Box> boxes) const {
+    void write(std::span<const SampledBox> boxes) const {
         std::vector<std::uint32_t> elements;
         std::vector<double> numbers;
-        for (const Box& box : boxes) {
+        for (const SampledBox& box : boxes) {
             elements.push_back(box.element);
             numbers.insert(numbers.end(), {box.middle[0], box.middle[1], box.middle[2], box.half});
         }
@@ -103,8 +104,8 @@ private:
     Buffer m_ranges, m_samples, m_elements, m_boxes;
 };
 
-std::vector<Box> whole_elements(const ClassInfo& info) {
-    std::vector<Box> boxes(info.n_elements);
+std::vector<SampledBox> whole_elements(const ClassInfo& info) {
+    std::vector<SampledBox> boxes(info.n_elements);
     for (std::size_t element = 0; element < boxes.size(); ++element) {
         boxes[element].element = static_cast<std::uint32_t>(element);
     }
@@ -112,7 +113,7 @@ std::vector<Box> whole_elements(const ClassInfo& info) {
 }
 
 /** A sample, as core_expand (shaders/element/expand.glsl) takes it. */
-std::array<double, 3> sample_of(const Box& box, std::uint32_t sample) {
+std::array<double, 3> sample_of(const SampledBox& box, std::uint32_t sample) {
     std::array<double, 3> eta{};
     for (std::size_t d = 0; d < 3; ++d) {
         const double step = sample % samples_a_direction;
@@ -126,7 +127,7 @@ std::array<double, 3> sample_of(const Box& box, std::uint32_t sample) {
 struct Candidate {
     double value;
     std::uint32_t element_class;
-    Box box;
+    SampledBox box;
 };
 
 /** Keeps the larger samples, and looks for larger ones near them. */
@@ -134,7 +135,7 @@ class Refinement {
 public:
     explicit Refinement(int sign) : m_sign(sign) {}
 
-    void add(std::uint32_t element_class, const Box& box, const BoxSamples& samples) {
+    void add(std::uint32_t element_class, const SampledBox& box, const BoxSamples& samples) {
         Candidate candidate{-infinity, element_class, box};
         improve(candidate, samples);
         if (candidate.value > -infinity) {
@@ -157,7 +158,7 @@ public:
 
     /** Samples anew around the best sample of each candidate of that class, three times as close. */
     void refine(std::uint32_t element_class, const BoxSampler& sampler, std::uint32_t component, std::uint32_t n_components) {
-        std::vector<Box> boxes;
+        std::vector<SampledBox> boxes;
         for (Candidate& candidate : m_candidates) {
             if (candidate.element_class == element_class) {
                 candidate.box.half /= 3;
@@ -212,7 +213,7 @@ std::vector<FieldRange> ranges_from_samples(const Device& device, const RuntimeV
             continue;
         }
         const BoxSampler sampler(device, data, index);
-        const std::vector<Box> boxes = whole_elements(volume.classes()[index]);
+        const std::vector<SampledBox> boxes = whole_elements(volume.classes()[index]);
         for (std::uint32_t component = 0; component < n_components; ++component) {
             for (const BoxSamples& samples : sampler.sample(boxes, component, 1)) {
                 if (samples.lower <= samples.upper) {
@@ -236,7 +237,7 @@ FieldExtrema extrema_from_samples(const Device& device, const RuntimeVolume& vol
             continue;
         }
         samplers[index] = std::make_unique<BoxSampler>(device, data, index);
-        const std::vector<Box> boxes = whole_elements(volume.classes()[index]);
+        const std::vector<SampledBox> boxes = whole_elements(volume.classes()[index]);
         const std::vector<BoxSamples> samples = samplers[index]->sample(boxes, first, n);
         for (std::size_t box = 0; box < boxes.size(); ++box) {
             largest.add(index, boxes[box], samples[box]);

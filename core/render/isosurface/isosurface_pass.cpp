@@ -11,27 +11,29 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t tile_height = 16;
+constexpr std::uint32_t isosurface_tile_height = 16;
 /** Of a tile's list, and its words: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t tile_capacity = 127;
-constexpr std::uint32_t tile_stride = 2 * tile_capacity + 2;
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t isosurface_tile_stride = 2 * tile_capacity + 2;
+constexpr std::uint32_t isosurface_group_size = 32;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 16;
+constexpr std::uint32_t isosurface_pixels_a_dispatch = 1u << 16;
 /**
  * Of the volume's diagonal: how far below a clipping plane crossings are still looked for. Colours doubt clipping within a
  * 256th of the distance to what neighbouring pixels show (shaders/picture/color.comp).
  */
 constexpr double kept_below_planes = 1.0 / 512;
 /** Of m_counts. */
-enum Count : std::size_t { evaluations, excluded, outside, undecided, crossings, n_counts };
+struct IsosurfaceCount {
+    enum : std::size_t { evaluations, excluded, outside, undecided, crossings, n_counts };
+};
 
-struct TilesParameters {
+struct IsosurfaceTilesParameters {
     std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
     std::uint32_t n_isovalues;
 };
 
-struct Parameters {
+struct IsosurfaceParameters {
     std::uint32_t width, height;
     std::uint32_t tiles_a_row;
     std::uint32_t first_listed;
@@ -60,7 +62,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
             own.name = "isosurface_tiles";
             own.kernel = "tiles/ray_tiles.comp";
             own.defines.emplace_back("CORE_LISTS_TILES", "1");
-            own.push_constant_bytes = sizeof(TilesParameters);
+            own.push_constant_bytes = sizeof(IsosurfaceTilesParameters);
         } else {
             own.name = "isosurface";
             own.kernel = "isosurface/isosurface.comp";
@@ -69,7 +71,7 @@ const ComposedKernel& IsosurfacePass::ClassKernels::provide(const Device& device
             own.defines.emplace_back("CORE_ROWS", std::to_string(rows_of(device, role)) + "u");
             own.defines.emplace_back("CORE_HAS_MASK", has_mask ? "1" : "0");
             own.bindings = buffer_bindings({.uniform = 1, .storage = has_mask ? 12u : 11u});
-            own.push_constant_bytes = sizeof(Parameters);
+            own.push_constant_bytes = sizeof(IsosurfaceParameters);
         }
         own.name += " of element class " + std::to_string(element_class);
         kernel = std::make_unique<ComposedKernel>(device, own);
@@ -88,7 +90,7 @@ void IsosurfacePass::ClassKernels::follow_room(const IsovalueSet& set) {
 IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_precision(data.precision()), m_tile_width(tile_width_on(device)),
       m_extent(static_cast<float>(diagonal_of(data.bounds()))), m_isovalue_set(device, volume, data), m_projection(device),
-      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)) {
+      m_frame(view_buffer(device, data.precision())), m_counts(device, IsosurfaceCount::n_counts * sizeof(std::uint32_t)) {
     for (std::uint32_t index = 0; index < volume.classes().size(); ++index) {
         if (volume.classes()[index].n_elements == 0) {
             continue;
@@ -100,7 +102,7 @@ IsosurfacePass::IsosurfacePass(const Device& device, const RuntimeVolume& volume
         request.buffers = {data.elements(index)};
         data.add_field(request, index, true);
         request.defines = {{"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
+                           {"CORE_TILE_HEIGHT", std::to_string(isosurface_tile_height) + "u"},
                            {"CORE_TILE_CAPACITY", std::to_string(tile_capacity) + "u"},
                            {"CORE_TESTS_ISOVALUES", "1"},
                            {"CORE_CLASS", std::to_string(index) + "u"}};
@@ -212,7 +214,7 @@ void IsosurfacePass::draw_by_projection(IsosurfaceMethod method, std::uint32_t f
 /** Those of each class that see something; they are waited for together. */
 std::vector<TileList::Ranges> IsosurfacePass::list_tiles(const Layer& layer, const TileRows& wanted) {
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const std::uint32_t n_tiles = tiles_a_row * divided_up(layer.height, tile_height);
+    const std::uint32_t n_tiles = tiles_a_row * divided_up(layer.height, isosurface_tile_height);
     std::vector<std::array<std::uint32_t, TileList::n_header_words>> headers(m_kernels.size());
     std::vector<Buffer::Read> reads;
     for (std::size_t index = 0; index < m_kernels.size(); ++index) {
@@ -221,14 +223,14 @@ std::vector<TileList::Ranges> IsosurfacePass::list_tiles(const Layer& layer, con
             continue;
         }
         const Buffer& tiles =
-            provide_buffer(kernels.tiles, m_device, std::uint64_t{n_tiles} * tile_stride * sizeof(std::uint32_t));
+            provide_buffer(kernels.tiles, m_device, std::uint64_t{n_tiles} * isosurface_tile_stride * sizeof(std::uint32_t));
         const Buffer& listed = kernels.listed->begin(n_tiles);
-        const TilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row,
-                                       static_cast<std::uint32_t>(m_values.size())};
+        const IsosurfaceTilesParameters of_tiles{tiles_a_row, n_tiles, wanted.first * tiles_a_row, wanted.end * tiles_a_row,
+                                                 static_cast<std::uint32_t>(m_values.size())};
         const std::array<const Buffer*, 4> bindings = {&m_frame, &tiles, &listed, &*m_isovalues};
         kernels.provide(m_device, Role::tiles, m_values.size() == 1)
             .dispatch(bindings, std::as_bytes(std::span(&of_tiles, 1)),
-                      divided_up(of_tiles.end_tile - of_tiles.first_tile, group_size));
+                      divided_up(of_tiles.end_tile - of_tiles.first_tile, isosurface_group_size));
         reads.push_back({&listed, std::as_writable_bytes(std::span(headers[index]))});
     }
     Buffer::read_together(reads);
@@ -243,8 +245,9 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
                                        FrameCounts& counts) {
     const Layer& layer = target.layer;
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const TileRows wanted = target.tile_rows(tile_height);
-    const std::uint32_t tiles_a_dispatch = items_a_dispatch(m_device, pixels_a_dispatch / (m_tile_width * tile_height));
+    const TileRows wanted = target.tile_rows(isosurface_tile_height);
+    const std::uint32_t tiles_a_dispatch =
+        items_a_dispatch(m_device, isosurface_pixels_a_dispatch / (m_tile_width * isosurface_tile_height));
     // The beyond buffer is not read without depths: anything of reals.
     const Buffer& beyond = target.beyond ? *target.beyond : layer.normals;
     const std::vector<TileList::Ranges> ranges = list_tiles(layer, wanted);
@@ -262,18 +265,18 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
             continue;
         }
         m_counts.fill(0);
-        Parameters parameters{layer.width,
-                              layer.height,
-                              tiles_a_row,
-                              0,
-                              first_surface + kernels.element_class,
-                              m_component.first,
-                              m_component.end,
-                              static_cast<std::uint32_t>(m_values.size()),
-                              m_n_clips,
-                              target.beyond ? 1u : 0u,
-                              m_round,
-                              m_extent};
+        IsosurfaceParameters parameters{layer.width,
+                                        layer.height,
+                                        tiles_a_row,
+                                        0,
+                                        first_surface + kernels.element_class,
+                                        m_component.first,
+                                        m_component.end,
+                                        static_cast<std::uint32_t>(m_values.size()),
+                                        m_n_clips,
+                                        target.beyond ? 1u : 0u,
+                                        m_round,
+                                        m_extent};
         std::vector<const Buffer*> bindings = {&m_frame,
                                                &layer.samples,
                                                &layer.normals,
@@ -293,16 +296,17 @@ void IsosurfacePass::draw_by_intervals(std::uint32_t first_surface, const LayerT
             in_batches(range.count, tiles_a_dispatch, [&](std::uint32_t first, std::uint32_t count) {
                 parameters.first_listed = range.first + first;
                 kernels.provide(m_device, role, m_values.size() == 1)
-                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count, tile_height / rows_of(m_device, role));
+                    .dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), count,
+                              isosurface_tile_height / rows_of(m_device, role));
             });
         };
         draw_tiles(of_shallow, ranges[index].shallow);
         draw_tiles(of_deep, ranges[index].deep);
-        take_counts(layer, m_counts, n_counts, [&counts](std::span<const std::uint32_t> found) {
-            counts.field_evaluations += found[evaluations];
-            counts.excluded_intervals += found[excluded] + found[outside];
-            counts.undecided_intervals += found[undecided];
-            counts.isosurface_crossings += found[crossings];
+        take_counts(layer, m_counts, IsosurfaceCount::n_counts, [&counts](std::span<const std::uint32_t> found) {
+            counts.field_evaluations += found[IsosurfaceCount::evaluations];
+            counts.excluded_intervals += found[IsosurfaceCount::excluded] + found[IsosurfaceCount::outside];
+            counts.undecided_intervals += found[IsosurfaceCount::undecided];
+            counts.isosurface_crossings += found[IsosurfaceCount::crossings];
         });
     }
 }

@@ -11,17 +11,19 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t projection_group_size = 32;
 /** Pixels of one dispatch: each may take a thousand evaluations. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 13;
+constexpr std::uint32_t projection_pixels_a_dispatch = 1u << 13;
 /** Of m_counts. */
-enum Count : std::size_t { evaluations, certified, verified, undecided, crossings, failures, fits, degrees, n_counts };
+struct ProjectionCount {
+    enum : std::size_t { evaluations, certified, verified, undecided, crossings, failures, fits, degrees, n_counts };
+};
 
-struct ListParameters {
+struct ProjectionListParameters {
     std::uint32_t n_pixels, groups_x, wanted_flags, kept_flags;
 };
 
-struct Parameters {
+struct ProjectionParameters {
     std::uint32_t width;
     std::uint32_t first, end;
     std::uint32_t surface;
@@ -35,7 +37,7 @@ struct Parameters {
 } // namespace
 
 IsosurfaceProjection::IsosurfaceProjection(const Device& device)
-    : m_device(device), m_counts(device, n_counts * sizeof(std::uint32_t)) {}
+    : m_device(device), m_counts(device, ProjectionCount::n_counts * sizeof(std::uint32_t)) {}
 
 const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request, std::uint32_t element_class,
                                                     IsosurfaceMethod method, std::uint32_t degree) {
@@ -52,7 +54,7 @@ const ComposedKernel& IsosurfaceProjection::provide(const KernelRequest& request
     own.defines.emplace_back("CORE_USES_COLLEAGUE", uses_colleague ? "1" : "0");
     own.defines.emplace_back("CORE_PLAIN", degree == 0 ? "0" : "1");
     own.bindings = buffer_bindings({.uniform = 1, .storage = 10});
-    own.push_constant_bytes = sizeof(Parameters);
+    own.push_constant_bytes = sizeof(ProjectionParameters);
     return m_kernels.try_emplace(key, m_device, own).first->second;
 }
 
@@ -60,7 +62,7 @@ const ComposedKernel& IsosurfaceProjection::provide_list_kernel(bool fills_mask)
     std::unique_ptr<ComposedKernel>& kernel = m_list_kernels[fills_mask ? 1 : 0];
     if (!kernel) {
         KernelRequest request = pixel_kernel("isosurface/list_open_pixels", Precision::float32,
-                                             {.storage = fills_mask ? 4u : 3u}, sizeof(ListParameters));
+                                             {.storage = fills_mask ? 4u : 3u}, sizeof(ProjectionListParameters));
         request.defines.emplace_back("CORE_FILLS_MASK", fills_mask ? "1" : "0");
         kernel = std::make_unique<ComposedKernel>(m_device, request);
     }
@@ -71,7 +73,7 @@ std::uint32_t IsosurfaceProjection::list(const Layer& layer, std::uint32_t flags
     provide_buffer(m_list, m_device, layer.n_pixels() * sizeof(std::uint32_t));
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const ListParameters parameters{n_pixels, pixel_groups_x, flags, kept};
+    const ProjectionListParameters parameters{n_pixels, pixel_groups_x, flags, kept};
     std::vector<const Buffer*> bindings{&layer.marks, &*m_list, &m_counts};
     if (mask) {
         bindings.push_back(mask);
@@ -90,30 +92,31 @@ void IsosurfaceProjection::draw(const ComposedKernel& kernel, const Picture& pic
                                                     &layer.marks,          &*m_list,         &picture.isovalues, &beyond,
                                                     picture.target.places, &picture.bending, &picture.last};
     m_counts.fill(0);
-    in_batches(m_n_listed, items_a_dispatch(m_device, pixels_a_dispatch, group_size),
+    in_batches(m_n_listed, items_a_dispatch(m_device, projection_pixels_a_dispatch, projection_group_size),
                [&](std::uint32_t first, std::uint32_t count) {
-                   const Parameters parameters{layer.width,
-                                               first,
-                                               first + count,
-                                               surface,
-                                               picture.component.first,
-                                               picture.component.end,
-                                               picture.n_isovalues,
-                                               picture.n_clips,
-                                               picture.target.beyond ? 1u : 0u,
-                                               picture.round,
-                                               picture.extent};
-                   kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), divided_up(count, group_size));
+                   const ProjectionParameters parameters{layer.width,
+                                                         first,
+                                                         first + count,
+                                                         surface,
+                                                         picture.component.first,
+                                                         picture.component.end,
+                                                         picture.n_isovalues,
+                                                         picture.n_clips,
+                                                         picture.target.beyond ? 1u : 0u,
+                                                         picture.round,
+                                                         picture.extent};
+                   kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
+                                   divided_up(count, projection_group_size));
                });
-    take_counts(layer, m_counts, n_counts, [&counts](std::span<const std::uint32_t> found) {
-        counts.field_evaluations += found[evaluations];
-        counts.certified_segments += found[certified];
-        counts.verified_fits += found[verified];
-        counts.undecided_fits += found[undecided];
-        counts.isosurface_crossings += found[crossings];
-        counts.newton_failures += found[failures];
-        counts.fits += found[fits];
-        counts.fit_degrees += found[degrees];
+    take_counts(layer, m_counts, ProjectionCount::n_counts, [&counts](std::span<const std::uint32_t> found) {
+        counts.field_evaluations += found[ProjectionCount::evaluations];
+        counts.certified_segments += found[ProjectionCount::certified];
+        counts.verified_fits += found[ProjectionCount::verified];
+        counts.undecided_fits += found[ProjectionCount::undecided];
+        counts.isosurface_crossings += found[ProjectionCount::crossings];
+        counts.newton_failures += found[ProjectionCount::failures];
+        counts.fits += found[ProjectionCount::fits];
+        counts.fit_degrees += found[ProjectionCount::degrees];
     });
     // Once, not for each class.
     counts.projected_pixels = std::max<std::uint64_t>(counts.projected_pixels, m_n_listed);

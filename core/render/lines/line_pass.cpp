@@ -11,10 +11,10 @@ namespace elvis {
 namespace {
 
 constexpr std::uint32_t group_width = 32;
-constexpr std::uint32_t tile_height = 16;
+constexpr std::uint32_t line_tile_height = 16;
 /** Pixels of one dispatch: bounds its time, and gives the threads of software drivers even shares. */
-constexpr std::uint32_t pixels_a_dispatch = 1u << 17;
-constexpr std::uint32_t listed_a_dispatch = 1u << 15;
+constexpr std::uint32_t line_pixels_a_dispatch = 1u << 17;
+constexpr std::uint32_t line_listed_a_dispatch = 1u << 15;
 /** Of those that may take many iterations. */
 constexpr std::uint32_t open_a_dispatch = 1u << 12;
 
@@ -120,7 +120,7 @@ std::vector<LinePass::ClassKernels> LinePass::compile(bool with_contours) const 
                            {"CORE_ON_FACES", m_faces ? "1" : "0"},
                            {"CORE_WITH_CONTOURS", with_contours ? "1" : "0"},
                            {"CORE_TILE_WIDTH", std::to_string(m_tile_width) + "u"},
-                           {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"}};
+                           {"CORE_TILE_HEIGHT", std::to_string(line_tile_height) + "u"}};
         const auto make = [&](const char* kernel, std::uint32_t n_storage, std::size_t push_bytes) {
             KernelRequest own = request;
             own.name = std::string(kernel).append(" of element class ").append(std::to_string(index));
@@ -208,9 +208,9 @@ void LinePass::settle(const Picture& picture) const {
         bindings.push_back(picture.bending);
     }
     const std::uint32_t tiles_a_row = divided_up(layer.width, m_tile_width);
-    const TileRows wanted = picture.target.tile_rows(tile_height);
+    const TileRows wanted = picture.target.tile_rows(line_tile_height);
     const std::uint32_t rows_a_dispatch =
-        items_a_dispatch(m_device, std::max(1u, pixels_a_dispatch / (tiles_a_row * m_tile_width * tile_height)));
+        items_a_dispatch(m_device, std::max(1u, line_pixels_a_dispatch / (tiles_a_row * m_tile_width * line_tile_height)));
     for (const ClassKernels& of_class : picture.kernels) {
         for (std::uint32_t first_row = wanted.first; first_row < wanted.end; first_row += rows_a_dispatch) {
             const SettleParameters parameters{layer.width,
@@ -294,7 +294,7 @@ void LinePass::look_closer(const Picture& picture, std::uint32_t n_listed, bool 
         const Buffer* to = from == &*m_open ? &*m_still_open : &*m_open;
         const std::uint32_t open_count = is_last ? 0 : 2 + round;
         const std::uint32_t most_a_dispatch =
-            items_a_dispatch(m_device, round == 0 ? listed_a_dispatch : open_a_dispatch, group_width);
+            items_a_dispatch(m_device, round == 0 ? line_listed_a_dispatch : open_a_dispatch, group_width);
         look_closer(picture, rounds[round], {*from, *to, n_left, most_a_dispatch, open_count, is_closed});
         from = to;
         n_left = is_last ? 0 : n_of(open_count);

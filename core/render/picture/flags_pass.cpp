@@ -8,7 +8,7 @@ namespace elvis {
 
 namespace {
 
-struct Parameters {
+struct FlagsParameters {
     std::uint32_t n_pixels, groups_x;
 };
 
@@ -19,7 +19,7 @@ constexpr std::uint32_t pixels_each = 8;
 constexpr std::size_t n_flags = 16, hits = n_flags, n_counts = n_flags + 1;
 
 KernelRequest settling_kernel(Precision precision) {
-    KernelRequest request = pixel_kernel("picture/settle_flags", precision, {.storage = 3}, sizeof(Parameters));
+    KernelRequest request = pixel_kernel("picture/settle_flags", precision, {.storage = 3}, sizeof(FlagsParameters));
     request.defines.emplace_back("CORE_PIXELS_EACH", std::to_string(pixels_each) + "u");
     return request;
 }
@@ -32,7 +32,7 @@ FlagsPass::FlagsPass(const Device& device, Precision precision)
 void FlagsPass::settle(const Layer& layer) const {
     m_counts.fill(0);
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const Parameters parameters{n_pixels, pixel_groups_x};
+    const FlagsParameters parameters{n_pixels, pixel_groups_x};
     dispatch_pixels(m_kernel, {&layer.marks, &m_counts, &layer.marks}, std::as_bytes(std::span(&parameters, 1)),
                     divided_up(n_pixels, pixels_each * pixel_group_size) * pixel_group_size);
 }

@@ -16,7 +16,7 @@ struct MergeParameters {
     std::uint32_t width;
 };
 
-struct PixelParameters {
+struct MergePixelParameters {
     std::uint32_t n_pixels, groups_x;
 };
 
@@ -25,10 +25,10 @@ struct PixelParameters {
 MergePass::MergePass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision),
       m_merge(device, pixel_kernel("picture/merge", precision, {.storage = 12}, sizeof(MergeParameters))),
-      m_take(device, pixel_kernel("picture/take_layer", precision, {.storage = 5}, sizeof(PixelParameters))),
-      m_order(device, pixel_kernel("picture/order_layers", precision, {.storage = 4}, sizeof(PixelParameters))),
-      m_blend(device, pixel_kernel("picture/blend", precision, {.storage = 4}, sizeof(PixelParameters))),
-      m_fill(device, pixel_kernel("picture/background", precision, {.storage = 2}, sizeof(PixelParameters))),
+      m_take(device, pixel_kernel("picture/take_layer", precision, {.storage = 5}, sizeof(MergePixelParameters))),
+      m_order(device, pixel_kernel("picture/order_layers", precision, {.storage = 4}, sizeof(MergePixelParameters))),
+      m_blend(device, pixel_kernel("picture/blend", precision, {.storage = 4}, sizeof(MergePixelParameters))),
+      m_fill(device, pixel_kernel("picture/background", precision, {.storage = 2}, sizeof(MergePixelParameters))),
       m_counts(device, 3 * sizeof(std::uint32_t)), m_background_color(device, 4 * real_bytes(precision)) {}
 
 void MergePass::begin(std::uint32_t width, std::uint32_t height, const PixelRows& rows, const Color& background) {
@@ -75,7 +75,7 @@ void MergePass::keep(const Layer& layer) {
         m_transparent_layers.push_back({Buffer(m_device, 4 * bytes), Buffer(m_device, bytes)});
     }
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const PixelParameters parameters{n_pixels, pixel_groups_x};
+    const MergePixelParameters parameters{n_pixels, pixel_groups_x};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     const TransparentLayer& taken = m_transparent_layers[m_n_transparent_layers];
     dispatch_rows(m_take, {&layer.samples, &layer.marks, &layer.colors, &taken.colors, &taken.depths}, bytes, layer);
@@ -91,7 +91,7 @@ void MergePass::keep(const Layer& layer) {
 void MergePass::fill_empty() {
     if (m_is_empty) {
         const auto n_pixels = static_cast<std::uint32_t>(m_picture->n_pixels());
-        const PixelParameters parameters{n_pixels, pixel_groups_x};
+        const MergePixelParameters parameters{n_pixels, pixel_groups_x};
         dispatch_pixels(m_fill, {&m_picture->colors, &m_background_color}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
         m_picture->marks.fill(0);
     }
@@ -109,7 +109,7 @@ void MergePass::hide_behind(std::span<const double> depths) {
 
 void MergePass::finish() {
     const auto n_pixels = static_cast<std::uint32_t>(m_picture->n_pixels());
-    const PixelParameters parameters{n_pixels, pixel_groups_x};
+    const MergePixelParameters parameters{n_pixels, pixel_groups_x};
     for (std::size_t i = m_n_transparent_layers; i > 0; --i) {
         const TransparentLayer& layer = m_transparent_layers[i - 1];
         dispatch_rows(m_blend, {&layer.colors, &layer.depths, &m_picture->colors, m_depths.get()},

@@ -5,19 +5,19 @@ namespace elvis {
 
 namespace {
 
-struct Parameters {
+struct OcclusionParameters {
     std::uint32_t n_pixels, groups_x, step;
 };
 
 } // namespace
 
 OcclusionPass::OcclusionPass(const Device& device, Precision precision)
-    : m_kernel(device, pixel_kernel("picture/occlude", precision, {.storage = 4}, sizeof(Parameters))),
+    : m_kernel(device, pixel_kernel("picture/occlude", precision, {.storage = 4}, sizeof(OcclusionParameters))),
       m_counts(device, sizeof(std::uint32_t)) {}
 
 void OcclusionPass::run(const Layer& layer, const Buffer& depths, Step step) const {
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const Parameters parameters{n_pixels, pixel_groups_x, static_cast<std::uint32_t>(step)};
+    const OcclusionParameters parameters{n_pixels, pixel_groups_x, static_cast<std::uint32_t>(step)};
     dispatch_rows(m_kernel, {&layer.samples, &layer.marks, &depths, &m_counts}, std::as_bytes(std::span(&parameters, 1)),
                   layer);
 }

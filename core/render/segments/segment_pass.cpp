@@ -14,16 +14,18 @@ constexpr std::size_t rays_a_batch = 1u << 15;
 /** Segments of a ray's list; a ray that has more goes on when they are taken. */
 constexpr std::uint32_t list_capacity = 48;
 /** More than any ray has walks, and walks segments in different classes, and their segments take dispatches. */
-constexpr std::uint32_t most_rounds = 4096;
+constexpr std::uint32_t most_segment_rounds = 4096;
 constexpr std::uint32_t estimated_segment = 0x80000000u;
 /** Of shaders/segments/walk_state.glsl. */
 constexpr std::uint32_t ray_seeks = 0, ray_ends = 2, no_element = 0xffffffffu;
 constexpr double far = 3e38;
 
-constexpr std::size_t n_counts = 8;
-enum MarchCount : std::size_t { moved, segments, evaluations, overlaps, failures, estimated, breaks, full };
+constexpr std::size_t n_segment_counts = 8;
+struct SegmentMarchCount {
+    enum : std::size_t { moved, segments, evaluations, overlaps, failures, estimated, breaks, full };
+};
 
-struct MarchParameters {
+struct SegmentMarchParameters {
     std::uint32_t width, height;
     std::uint32_t first_row;
     std::uint32_t first_element, n_elements;
@@ -102,7 +104,7 @@ SegmentPass::SegmentPass(const Device& device, const RuntimeVolume& volume, cons
                          const std::optional<SkippedField>& skipped)
     : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_skipped(skipped),
       m_walk_data(device, volume, data), m_frame(view_buffer(device, data.precision())),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {}
+      m_counts(device, n_segment_counts * sizeof(std::uint32_t)) {}
 
 SegmentPass::Kernels& SegmentPass::kernels_for(bool are_given) {
     std::optional<Kernels>& kernels = m_kernels[are_given];
@@ -114,7 +116,7 @@ SegmentPass::Kernels& SegmentPass::kernels_for(bool are_given) {
             KernelRequest march = kernels->search.request(range, "segments/segments");
             march.instances = {m_data.instance(range.element_class)};
             march.bindings = buffer_bindings({.uniform = 1, .storage = are_given ? 4u : 3u});
-            march.push_constant_bytes = sizeof(MarchParameters);
+            march.push_constant_bytes = sizeof(SegmentMarchParameters);
             kernels->march.push_back(std::make_unique<ComposedKernel>(m_device, march));
         }
     }
@@ -151,7 +153,7 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
                                  : all.of(m_device, GroupShape(kernels.search.tile_width()), rays.walk.width, rays.walk.height);
     counts.seek_evaluations += kernels.search.start_at_eyes(rays.walk, groups);
     bool is_open = true;
-    for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
+    for (std::uint32_t round = 0; is_open && round < most_segment_rounds; ++round) {
         const DeviceTimer timer(m_device);
         bool is_full = false;
         kernels.search.begin_search();
@@ -164,7 +166,7 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
         for (std::size_t index = 0; index < kernels.march.size(); ++index) {
             const WalkSearch::Range& range = kernels.search.ranges()[index];
             m_counts.fill(0);
-            const MarchParameters parameters{
+            const SegmentMarchParameters parameters{
                 rays.walk.width,         rays.walk.height,           0, range.first_element, range.n_elements, rays.capacity, 0,
                 kernels.search.extent(), kernels.search.data_error()};
             std::vector<const Buffer*> bindings = {&m_frame, &rays.walk.states, &rays.segments, &m_counts};
@@ -172,15 +174,15 @@ template <class Take> void SegmentPass::run(Kernels& kernels, const Rays& rays, 
                 bindings.push_back(rays.walk.given);
             }
             kernels.march[index]->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), tiles_a_row, rays.walk.height);
-            const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
-            counts.segments += found[segments];
-            counts.evaluations += found[evaluations];
-            counts.overlaps += found[overlaps];
-            counts.failures += found[failures];
-            counts.estimated += found[estimated];
-            counts.breaks += found[breaks];
-            is_open = is_open || found[moved] > 0;
-            is_full = is_full || found[full] > 0;
+            const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_segment_counts);
+            counts.segments += found[SegmentMarchCount::segments];
+            counts.evaluations += found[SegmentMarchCount::evaluations];
+            counts.overlaps += found[SegmentMarchCount::overlaps];
+            counts.failures += found[SegmentMarchCount::failures];
+            counts.estimated += found[SegmentMarchCount::estimated];
+            counts.breaks += found[SegmentMarchCount::breaks];
+            is_open = is_open || found[SegmentMarchCount::moved] > 0;
+            is_full = is_full || found[SegmentMarchCount::full] > 0;
         }
         counts.milliseconds += timer.milliseconds();
         if (is_full || !is_open) {

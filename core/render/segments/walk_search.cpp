@@ -12,11 +12,11 @@ namespace elvis {
 namespace {
 
 /** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
-constexpr std::uint32_t tile_stride = 64;
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t walk_tile_stride = 64;
+constexpr std::uint32_t walk_group_size = 32;
 enum EyeCount : std::size_t { eye_evaluations, eye_overlaps };
 
-struct TilesParameters {
+struct WalkTilesParameters {
     std::uint32_t tiles_a_row, n_tiles, first_tile, end_tile;
 };
 
@@ -92,7 +92,7 @@ void WalkSearch::compile() {
             tiles.defines.emplace_back("CORE_TESTS_STARTS", "1");
             tiles.instances = {m_data.instance(range.element_class)};
             tiles.bindings = buffer_bindings({.uniform = 1, .storage = 2});
-            tiles.push_constant_bytes = sizeof(TilesParameters);
+            tiles.push_constant_bytes = sizeof(WalkTilesParameters);
             kernels.tiles = std::make_unique<ComposedKernel>(m_device, tiles);
         }
         KernelRequest seek = request(range, "segments/find_walk");
@@ -105,8 +105,8 @@ void WalkSearch::compile() {
 
 void WalkSearch::list_starts(const WalkRays& rays) {
     const std::uint32_t n_tiles = tiles_a_row(rays.width) * divided_up(rays.height, tile_height);
-    const TilesParameters parameters{tiles_a_row(rays.width), n_tiles, 0, n_tiles};
-    const std::uint64_t bytes = std::uint64_t{parameters.n_tiles} * tile_stride * sizeof(std::uint32_t);
+    const WalkTilesParameters parameters{tiles_a_row(rays.width), n_tiles, 0, n_tiles};
+    const std::uint64_t bytes = std::uint64_t{parameters.n_tiles} * walk_tile_stride * sizeof(std::uint32_t);
     const std::uint64_t flag_bytes = std::uint64_t{parameters.n_tiles} * sizeof(std::uint32_t);
     provide_buffer(m_has_starts, m_device, flag_bytes).fill(0);
     for (std::size_t index = 0; index < m_ranges.size(); ++index) {
@@ -115,7 +115,7 @@ void WalkSearch::list_starts(const WalkRays& rays) {
         if (m_walk_data.n_starts(m_ranges[index].element_class) > 0) {
             const std::array<const Buffer*, 3> bindings = {&rays.frame, &*kernels.lists, &*m_has_starts};
             kernels.tiles->dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                                    divided_up(parameters.n_tiles, group_size));
+                                    divided_up(parameters.n_tiles, walk_group_size));
         }
     }
 }

@@ -23,10 +23,13 @@ namespace {
 /** Groups of rays that a work group of the kernel looks at: CORE_GROUPS. */
 constexpr std::uint32_t groups_a_work_group = 16;
 /** Of m_counts: in front, the size of a dispatch for the live ones. */
-enum Count : std::size_t { live, live_y, live_z, open, n_counts };
-constexpr std::array<std::uint32_t, n_counts> none_yet = {0, 1, 1, 0};
+struct LiveRaysCount {
+    enum : std::size_t { live, live_y, live_z, open, n_counts };
+};
+constexpr std::array<std::uint32_t, LiveRaysCount::n_counts> none_yet = {0, 1, 1, 0};
 
-KernelRequest request_for(Precision precision, std::uint32_t tile_width, std::uint32_t tile_height, std::size_t push_bytes) {
+KernelRequest live_rays_request(Precision precision, std::uint32_t tile_width, std::uint32_t tile_height,
+                                std::size_t push_bytes) {
     KernelRequest request = pixel_kernel("volume/live_rays", precision, {.storage = 6}, push_bytes);
     request.defines = {{"CORE_TILE_WIDTH", std::to_string(tile_width) + "u"},
                        {"CORE_TILE_HEIGHT", std::to_string(tile_height) + "u"},
@@ -59,8 +62,8 @@ RayGroups AllRayGroups::of(const Device& device, const GroupShape& shape, std::u
 
 LiveRays::LiveRays(const Device& device, Precision precision, std::uint32_t tile_width, std::uint32_t tile_height)
     : m_device(device), m_shape(tile_width),
-      m_kernel(device, request_for(precision, tile_width, tile_height, sizeof(Parameters))),
-      m_counts(device, n_counts * sizeof(std::uint32_t)) {}
+      m_kernel(device, live_rays_request(precision, tile_width, tile_height, sizeof(Parameters))),
+      m_counts(device, LiveRaysCount::n_counts * sizeof(std::uint32_t)) {}
 
 void LiveRays::begin(const Buffer& states, const Buffer& has_starts, std::uint32_t width, std::uint32_t height) {
     m_states = &states;
@@ -87,12 +90,12 @@ RayGroups LiveRays::run(std::uint32_t seeks, std::uint32_t first_element, std::u
         // Of all groups each time: what is open is not known here.
         return {&*m_live, m_all.count, &m_counts};
     }
-    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(n_counts);
+    const std::vector<std::uint32_t> found = m_counts.read_items<std::uint32_t>(LiveRaysCount::n_counts);
     if (seeks != 0) {
-        m_open = {&next_open, found[open]};
+        m_open = {&next_open, found[LiveRaysCount::open]};
         m_next_open = 1 - m_next_open;
     }
-    return {&*m_live, found[live]};
+    return {&*m_live, found[LiveRaysCount::live]};
 }
 
 RayGroups LiveRays::seeking() { return run(1, 0, 0); }

@@ -15,15 +15,17 @@ namespace {
 /** Of the polynomials of one step. */
 constexpr int step_degree = 5;
 /** A ray has no more walks, and walks no more segments in different classes: far more than there are elements along a ray. */
-constexpr std::uint32_t most_rounds = 4096;
+constexpr std::uint32_t most_volume_rounds = 4096;
 /** Beyond all values, and a number in single precision. */
 constexpr double unbounded = 3e38;
 /** Of m_counts. */
-constexpr std::size_t n_counts = 8;
-enum MarchCount : std::size_t { moved, evaluations, mappings, segments, empty_segments, steps, breakpoints, failures };
+constexpr std::size_t n_volume_counts = 8;
+struct VolumeMarchCount {
+    enum : std::size_t { moved, evaluations, mappings, segments, empty_segments, steps, breakpoints, failures };
+};
 enum FinishCount : std::size_t { volume_pixels };
 
-struct MarchParameters {
+struct VolumeMarchParameters {
     std::uint32_t width, height;
     std::uint32_t first_group;
     std::uint32_t first_element, n_elements;
@@ -36,7 +38,7 @@ struct MarchParameters {
     float tolerance, steepest, step;
 };
 
-struct PixelParameters {
+struct VolumePixelParameters {
     std::uint32_t n_pixels, groups_x;
     float tolerance, color_error;
 };
@@ -130,12 +132,12 @@ std::uint32_t first_level(int degree) {
 VolumePass::VolumePass(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data)
     : m_device(device), m_volume(volume), m_data(data), m_precision(data.precision()), m_walk_data(device, volume, data),
       m_search(device, data, m_walk_data, volume, {}, false), m_models(device, volume, data),
-      m_begin(device, pixel_kernel("volume/volume_begin", data.precision(), {.storage = 1}, sizeof(PixelParameters))),
+      m_begin(device, pixel_kernel("volume/volume_begin", data.precision(), {.storage = 1}, sizeof(VolumePixelParameters))),
       m_transparent_layer(
-          device, pixel_kernel("volume/volume_transparency", data.precision(), {.storage = 4}, sizeof(PixelParameters))),
-      m_finish(device, pixel_kernel("volume/volume_finish", data.precision(), {.storage = 4}, sizeof(PixelParameters))),
+          device, pixel_kernel("volume/volume_transparency", data.precision(), {.storage = 4}, sizeof(VolumePixelParameters))),
+      m_finish(device, pixel_kernel("volume/volume_finish", data.precision(), {.storage = 4}, sizeof(VolumePixelParameters))),
       m_live(device, data.precision(), m_search.tile_width(), WalkSearch::tile_height),
-      m_frame(view_buffer(device, data.precision())), m_counts(device, n_counts * sizeof(std::uint32_t)),
+      m_frame(view_buffer(device, data.precision())), m_counts(device, n_volume_counts * sizeof(std::uint32_t)),
       m_march(m_search.ranges().size()) {}
 
 void VolumePass::choose(const VolumeRendering& wanted, double offset, const ShownComponent& component) {
@@ -192,28 +194,28 @@ const ComposedKernel& VolumePass::march_kernel(std::size_t index) {
     request.defines.emplace_back("CORE_FIELD_DEGREE", std::to_string(degree));
     request.defines.emplace_back("CORE_FIRST_LEVEL", std::to_string(first_level(degree)) + "u");
     request.bindings = buffer_bindings({.uniform = 1, .storage = 7});
-    request.push_constant_bytes = sizeof(MarchParameters);
+    request.push_constant_bytes = sizeof(VolumeMarchParameters);
     return m_march[index].try_emplace(key, m_device, request).first->second;
 }
 
 void VolumePass::march(std::size_t index, const Picture& picture, const RayGroups& groups) {
-    const MarchParameters parameters{picture.layer.width,
-                                     picture.layer.height,
-                                     0,
-                                     m_search.ranges()[index].first_element,
-                                     m_search.ranges()[index].n_elements,
-                                     m_component.first(),
-                                     m_component.end(),
-                                     m_n_breakpoints,
-                                     picture.depths ? 1u : 0u,
-                                     picture.stops ? 1u : 0u,
-                                     m_wanted.skips_by_range ? 1u : 0u,
-                                     0,
-                                     m_search.extent(),
-                                     m_search.data_error(),
-                                     static_cast<float>(m_wanted.tolerance),
-                                     static_cast<float>(m_steepest),
-                                     static_cast<float>(m_wanted.step)};
+    const VolumeMarchParameters parameters{picture.layer.width,
+                                           picture.layer.height,
+                                           0,
+                                           m_search.ranges()[index].first_element,
+                                           m_search.ranges()[index].n_elements,
+                                           m_component.first(),
+                                           m_component.end(),
+                                           m_n_breakpoints,
+                                           picture.depths ? 1u : 0u,
+                                           picture.stops ? 1u : 0u,
+                                           m_wanted.skips_by_range ? 1u : 0u,
+                                           0,
+                                           m_search.extent(),
+                                           m_search.data_error(),
+                                           static_cast<float>(m_wanted.tolerance),
+                                           static_cast<float>(m_steepest),
+                                           static_cast<float>(m_wanted.step)};
     // What is not there is not read: anything of reals.
     const Buffer& depths = picture.depths ? *picture.depths : picture.layer.normals;
     const Buffer& stops = picture.stops ? *picture.stops : picture.layer.normals;
@@ -227,14 +229,14 @@ bool VolumePass::count(FrameCounts& counts) const {
     const std::vector<std::vector<std::uint32_t>> words = Buffer::read_words({&m_search.counts(), &m_counts});
     const WalkSearch::Found starts = WalkSearch::found_in(words[0]);
     const std::vector<std::uint32_t>& found = words[1];
-    counts.field_evaluations += found[evaluations];
-    counts.mapping_evaluations += found[mappings] + starts.evaluations;
-    counts.volume_segments += found[segments];
-    counts.empty_segments += found[empty_segments];
-    counts.volume_steps += found[steps];
-    counts.volume_breakpoints += found[breakpoints];
-    counts.newton_failures += found[failures];
-    return starts.is_seeking || found[moved] > 0;
+    counts.field_evaluations += found[VolumeMarchCount::evaluations];
+    counts.mapping_evaluations += found[VolumeMarchCount::mappings] + starts.evaluations;
+    counts.volume_segments += found[VolumeMarchCount::segments];
+    counts.empty_segments += found[VolumeMarchCount::empty_segments];
+    counts.volume_steps += found[VolumeMarchCount::steps];
+    counts.volume_breakpoints += found[VolumeMarchCount::breakpoints];
+    counts.newton_failures += found[VolumeMarchCount::failures];
+    return starts.is_seeking || found[VolumeMarchCount::moved] > 0;
 }
 
 void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
@@ -242,7 +244,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
     RayGroups live = all;
     const auto spare = [&] { counts.spared_pixels += std::uint64_t{all.count - live.count} * m_search.tile_width(); };
     bool is_open = true;
-    for (std::uint32_t round = 0; is_open && round < most_rounds; ++round) {
+    for (std::uint32_t round = 0; is_open && round < most_volume_rounds; ++round) {
         m_search.begin_search();
         m_counts.fill(0);
         if (picture.only_live) {
@@ -275,8 +277,8 @@ VolumePass::Picture VolumePass::begin(const CutPlaneGeometry& view, const ViewSt
     m_walk_data.look_from(start);
     Picture picture{layer, merged.depths(), nullptr, {layer.width, layer.height, m_frame, states, nullptr}, only_live, nullptr};
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance),
-                                     static_cast<float>(color_error)};
+    const VolumePixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance),
+                                           static_cast<float>(color_error)};
     dispatch_pixels(m_begin, {&states}, std::as_bytes(std::span(&parameters, 1)), n_pixels);
     m_search.list_starts(picture.rays);
     m_live.begin(states, m_search.has_starts(), layer.width, layer.height);
@@ -289,8 +291,8 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     Picture picture = begin(view, start, merged, only_live, m_color_error, counts);
     const Layer& layer = picture.layer;
     const auto n_pixels = static_cast<std::uint32_t>(layer.n_pixels());
-    const PixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance),
-                                     static_cast<float>(m_color_error)};
+    const VolumePixelParameters parameters{n_pixels, pixel_groups_x, static_cast<float>(m_wanted.tolerance),
+                                           static_cast<float>(m_color_error)};
     const std::span<const std::byte> bytes = std::as_bytes(std::span(&parameters, 1));
     for (std::size_t i = 0; i < merged.n_transparent_layers(); ++i) {
         picture.stops = &merged.transparent_layer(i).depths;
@@ -302,7 +304,7 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
     march_all(picture, counts);
     m_counts.fill(0);
     dispatch_pixels(m_finish, {&*m_states, &layer.colors, &layer.marks, &m_counts}, bytes, n_pixels);
-    counts.volume_pixels += m_counts.read_items<std::uint32_t>(n_counts)[volume_pixels];
+    counts.volume_pixels += m_counts.read_items<std::uint32_t>(n_volume_counts)[volume_pixels];
 }
 
 std::vector<LightRun> VolumePass::runs(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged,

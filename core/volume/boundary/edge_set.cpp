@@ -18,12 +18,12 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t edge_group_size = 32;
 constexpr std::uint64_t edges_a_dispatch = 65536;
 /** Positions agree to this share of the volume's size if they are the same. */
 constexpr double same_point = 1e-5;
 
-struct Parameters {
+struct EdgeParameters {
     std::uint32_t n_edges, n_points;
 };
 
@@ -95,7 +95,7 @@ std::vector<double> sample(const Device& device, const RuntimeVolume& volume, co
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
     request.bindings = buffer_bindings({.storage = 3});
-    request.push_constant_bytes = sizeof(Parameters);
+    request.push_constant_bytes = sizeof(EdgeParameters);
     const ComposedKernel kernel(device, request);
     const std::uint64_t point_bytes = 3 * block * n_points * real_bytes(data.precision());
     const Buffer output(device, point_bytes), input(device, point_bytes), elements(device, block * sizeof(std::uint32_t));
@@ -112,9 +112,9 @@ std::vector<double> sample(const Device& device, const RuntimeVolume& volume, co
         }
         elements.write_items(std::span<const std::uint32_t>(local));
         const auto n = static_cast<std::uint32_t>(own.size() * n_points);
-        const Parameters parameters{static_cast<std::uint32_t>(own.size()), n_points};
+        const EdgeParameters parameters{static_cast<std::uint32_t>(own.size()), n_points};
         write_reals(input, data.precision(), points);
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + group_size - 1) / group_size);
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + edge_group_size - 1) / edge_group_size);
         const std::vector<double> read = read_reals(output, data.precision(), std::size_t{3} * n);
         positions.insert(positions.end(), read.begin(), read.end());
     }

@@ -8,7 +8,7 @@ namespace elvis {
 namespace {
 
 /** Faces that are asked of the plugin at once. */
-constexpr std::uint64_t block = 65536;
+constexpr std::uint64_t element_face_block = 65536;
 
 std::vector<bool> chosen_groups(const RuntimeVolume& volume, const std::vector<std::string>& names) {
     const std::vector<std::string>& known = volume.boundary_groups();
@@ -39,11 +39,11 @@ std::vector<ElementFace> boundary_faces(const RuntimeVolume& volume, const std::
     const std::vector<bool> is_chosen = chosen_groups(volume, groups);
     std::vector<ElementFace> places;
     std::vector<elvis_face> faces;
-    for (std::uint64_t first = 0; first < volume.n_faces(); first += block) {
+    for (std::uint64_t first = 0; first < volume.n_faces(); first += element_face_block) {
         if (control) {
             control->check();
         }
-        faces.resize(std::min(block, volume.n_faces() - first));
+        faces.resize(std::min(element_face_block, volume.n_faces() - first));
         volume.faces(first, faces.size(), faces);
         for (const elvis_face& face : faces) {
             const bool is_wanted = groups.empty() || (face.group >= 0 && is_chosen[static_cast<std::size_t>(face.group)]);

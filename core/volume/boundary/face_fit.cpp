@@ -11,7 +11,7 @@ namespace elvis {
 
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 /** Three coordinates a point. */
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
@@ -65,7 +65,7 @@ FaceFit::Shape FaceFit::make_shape(bool is_triangle) const {
     const std::size_t n_coefficients = size * size;
     const std::size_t n = is_triangle ? size * (size + 1) / 2 : n_coefficients;
     const double* points = m_points.data() + (is_triangle ? 2 * m_n_points : 0);
-    Matrix vandermonde(m_n_points, n);
+    RowMatrix vandermonde(m_n_points, n);
     std::vector<std::size_t> place;
     for (std::size_t j = 0; j < size; ++j) {
         for (std::size_t i = 0; i < (is_triangle ? size - j : size); ++i) {
@@ -81,9 +81,9 @@ FaceFit::Shape FaceFit::make_shape(bool is_triangle) const {
         }
     }
     const auto rows = static_cast<Eigen::Index>(n);
-    const Matrix inverse = vandermonde.topRows(rows).fullPivLu().inverse();
-    Matrix matrix = Matrix::Zero(static_cast<Eigen::Index>(n_coefficients), rows);
-    Matrix values = Matrix::Zero(static_cast<Eigen::Index>(m_n_points), static_cast<Eigen::Index>(n_coefficients));
+    const RowMatrix inverse = vandermonde.topRows(rows).fullPivLu().inverse();
+    RowMatrix matrix = RowMatrix::Zero(static_cast<Eigen::Index>(n_coefficients), rows);
+    RowMatrix values = RowMatrix::Zero(static_cast<Eigen::Index>(m_n_points), static_cast<Eigen::Index>(n_coefficients));
     for (std::size_t term = 0; term < n; ++term) {
         matrix.row(static_cast<Eigen::Index>(place[term])) = inverse.row(static_cast<Eigen::Index>(term));
         values.col(static_cast<Eigen::Index>(place[term])) = vandermonde.col(static_cast<Eigen::Index>(term));
@@ -95,8 +95,8 @@ double FaceFit::fit(bool is_triangle, std::span<const double> positions, std::sp
     const Shape& shape = m_shapes[is_triangle ? 1 : 0];
     const std::size_t n = shape.n_interpolated;
     const auto stride = static_cast<Eigen::Index>(n_coefficients());
-    const Eigen::Map<const Matrix> matrix(shape.matrix.data(), stride, static_cast<Eigen::Index>(n));
-    const Eigen::Map<const Matrix> values(shape.values.data(), static_cast<Eigen::Index>(m_n_points), stride);
+    const Eigen::Map<const RowMatrix> matrix(shape.matrix.data(), stride, static_cast<Eigen::Index>(n));
+    const Eigen::Map<const RowMatrix> values(shape.values.data(), static_cast<Eigen::Index>(m_n_points), stride);
     const Eigen::Map<const Points> given(positions.data(), static_cast<Eigen::Index>(m_n_points), 3);
     Eigen::Map<Points> fitted(coefficients.data(), stride, 3);
     const auto first = static_cast<Eigen::Index>(n);

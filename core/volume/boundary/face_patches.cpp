@@ -15,7 +15,7 @@ namespace elvis {
 namespace {
 
 /** By how much the square is enlarged for what holds near the patch: shaders/boundary/face_patch.glsl. */
-constexpr double reach = 1.2;
+constexpr double patch_reach = 1.2;
 /**
  * The sum of the normal's turn and the share of the tangents that changes, at which a patch is divided: smaller patches leave
  * fewer pixels to the careful kernel, which takes rays for which it is above 0.5 as they see the patch; larger ones make
@@ -85,7 +85,7 @@ struct Model {
 
 Model model_of(const FaceShape& shape, const Square& square) {
     const auto size = static_cast<std::size_t>(shape.order + 1);
-    const std::vector<Vector3> here = on_square(shape, square, 1.0), near = on_square(shape, square, reach);
+    const std::vector<Vector3> here = on_square(shape, square, 1.0), near = on_square(shape, square, patch_reach);
     Model model;
     model.x0 = here[0];
     model.a = here[1];
@@ -114,14 +114,14 @@ Model model_of(const FaceShape& shape, const Square& square) {
                 model.flat += std::max(std::abs(dot(model.to_u, c)), std::abs(dot(model.to_v, c)));
                 model.high += std::abs(dot(model.to_s, c));
             }
-            // In the coordinates of the enlarged square the model's slopes are `reach` times as large.
+            // In the coordinates of the enlarged square the model's slopes are `patch_reach` times as large.
             Vector3 d = near[j * size + i];
             for (std::size_t axis = 0; axis < 3 && is_linear && i + j == 1; ++axis) {
-                d[axis] -= reach * (i == 1 ? model.a : model.b)[axis];
+                d[axis] -= patch_reach * (i == 1 ? model.a : model.b)[axis];
             }
-            const double first = (first_bound(i) + first_bound(j)) / reach;
+            const double first = (first_bound(i) + first_bound(j)) / patch_reach;
             const double second =
-                0.5 * (second_bound(i) + 2 * first_bound(i) * first_bound(j) + second_bound(j)) / (reach * reach);
+                0.5 * (second_bound(i) + 2 * first_bound(i) * first_bound(j) + second_bound(j)) / (patch_reach * patch_reach);
             const double in_plane = std::max(std::abs(dot(model.to_u, d)), std::abs(dot(model.to_v, d)));
             const double across = std::abs(dot(model.to_s, d));
             model.slope_flat += first * in_plane;

@@ -8,11 +8,11 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t face_group_size = 32;
 /** Points of one dispatch: bounds its time and the memory for its results. */
 constexpr std::uint64_t points_a_dispatch = 1u << 20;
 
-struct Parameters {
+struct FaceParameters {
     std::uint32_t first, n_faces, n_points;
 };
 
@@ -27,7 +27,7 @@ void sample_faces(const Device& device, const DeviceVolume& data, std::uint32_t 
     request.instances = {data.instance(element_class)};
     request.buffers = {{"core_faces", &faces}};
     request.bindings = buffer_bindings({.storage = 2});
-    request.push_constant_bytes = sizeof(Parameters);
+    request.push_constant_bytes = sizeof(FaceParameters);
     const ComposedKernel kernel(device, request);
 
     const std::uint64_t number_bytes = real_bytes(data.precision());
@@ -39,10 +39,10 @@ void sample_faces(const Device& device, const DeviceVolume& data, std::uint32_t 
     const std::array<const Buffer*, 2> bindings = {&output, &input};
     for (std::uint64_t first = 0; first < faces.n_records(); first += block) {
         const std::uint64_t count = std::min(block, faces.n_records() - first);
-        const Parameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
-                                    static_cast<std::uint32_t>(n_points)};
+        const FaceParameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                                        static_cast<std::uint32_t>(n_points)};
         const auto n = static_cast<std::uint32_t>(count * n_points);
-        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + group_size - 1) / group_size);
+        kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)), (n + face_group_size - 1) / face_group_size);
         take(first, read_reals(output, data.precision(), std::size_t{3} * n));
     }
 }

@@ -13,7 +13,7 @@ namespace elvis {
 namespace {
 
 /** Elements asked of the plugin at once. */
-constexpr std::uint64_t block = 65536;
+constexpr std::uint64_t face_set_block = 65536;
 /** Beyond this order, polynomials through points would amplify rounding and take longer than the mapping itself. */
 constexpr int largest_order = 10;
 /** Times a patch is halved at most, as long as that leaves no more patches than this. */
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> face_records(const RuntimeVolume& volume, const Class
                 control->check();
             }
             first = face.element;
-            end = std::min(first + block, info.first_element + info.n_elements);
+            end = std::min(first + face_set_block, info.first_element + info.n_elements);
             numbers.resize(end - first);
             volume.element_numbers(first, end - first, numbers);
         }
@@ -145,7 +145,7 @@ FaceSet::ClassFaces class_faces(const Device& device, const RuntimeVolume& volum
     std::vector<double> coefficients;
     const std::size_t stride = fitted.coefficients.size() / faces.size();
     for (std::size_t face = 0; face < faces.size(); ++face) {
-        if (control && face % block == 0) {
+        if (control && face % face_set_block == 0) {
             control->check();
         }
         coefficients.assign(fitted.coefficients.begin() + static_cast<std::ptrdiff_t>(face * stride),

@@ -12,7 +12,7 @@ namespace {
 /** Eigenvalues are raised to this share of the largest one: forms stay invertible, and single precision does not lose them. */
 constexpr double least_share = 1e-4;
 /** For rounding, that of entries to single precision, too. */
-constexpr double margin = 1 + 1e-5;
+constexpr double form_margin = 1 + 1e-5;
 /** Of the trace of G, to each of its eigenvalues: more than what single precision loses of N(u)^2. */
 constexpr double lost_share = 4e-6;
 /** Forms change little after so many steps. */
@@ -90,8 +90,8 @@ BendForm bend_form_of(std::span<const MappingHessian> hessians, const std::array
         most = std::max(most, (seen * seen.transpose()).norm());
     }
     const Eigen::Matrix3d lengths = r.transpose() * r;
-    return {entries_of(margin * lengths + lost_share * lengths.trace() * Eigen::Matrix3d::Identity()),
-            entries_of(margin * most * (root * root))};
+    return {entries_of(form_margin * lengths + lost_share * lengths.trace() * Eigen::Matrix3d::Identity()),
+            entries_of(form_margin * most * (root * root))};
 }
 
 } // namespace elvis

@@ -10,13 +10,13 @@ namespace {
 /** Three, and four, vectors of four numbers. */
 constexpr std::uint32_t bends_size = 12, forms_size = 16;
 /** Elements that are written at once. */
-constexpr std::size_t block = 1u << 16;
+constexpr std::size_t curvature_block = 1u << 16;
 
 void write_bends(const RecordBuffer& records, std::span<const ElementBends> bends) {
     std::vector<double> numbers;
-    for (std::size_t first = 0; first < bends.size(); first += block) {
+    for (std::size_t first = 0; first < bends.size(); first += curvature_block) {
         numbers.clear();
-        for (const ElementBends& of : bends.subspan(first, std::min(block, bends.size() - first))) {
+        for (const ElementBends& of : bends.subspan(first, std::min(curvature_block, bends.size() - first))) {
             for (std::size_t m = 0; m < of.vectors.size(); m += 3) {
                 numbers.insert(numbers.end(), {of.vectors[m], of.vectors[m + 1], of.vectors[m + 2], 0.0});
             }
@@ -29,9 +29,9 @@ bool has_form(const ElementBends& bends) { return bends.form.lengths[0] > 0; }
 
 void write_forms(const RecordBuffer& records, std::span<const ElementBends> bends) {
     std::vector<double> numbers;
-    for (std::size_t first = 0; first < bends.size(); first += block) {
+    for (std::size_t first = 0; first < bends.size(); first += curvature_block) {
         numbers.clear();
-        for (const ElementBends& of : bends.subspan(first, std::min(block, bends.size() - first))) {
+        for (const ElementBends& of : bends.subspan(first, std::min(curvature_block, bends.size() - first))) {
             for (const SymmetricMatrix& m : {of.form.lengths, of.form.ways}) {
                 numbers.insert(numbers.end(), {m[0], m[3], m[5], 0.0, m[1], m[2], m[4], 0.0});
             }

@@ -15,10 +15,10 @@ namespace elvis {
 namespace {
 
 /** Octants of one dispatch: bounds time and memory. */
-constexpr std::size_t block = 65536;
-constexpr std::uint32_t group_size = 32;
+constexpr std::size_t octant_block = 65536;
+constexpr std::uint32_t octant_group_size = 32;
 /** Halvings of an element: what is still bent then is looked at all the same, and may stay undecided. */
-constexpr std::uint32_t most_levels = 5;
+constexpr std::uint32_t most_octant_levels = 5;
 /** shaders/cut_surface/open_points.comp */
 constexpr std::uint32_t no_octants = 0xffffffffu, no_room = 0xfffffffdu;
 
@@ -28,7 +28,7 @@ std::span<const std::uint32_t> record_of(std::span<const std::uint32_t> words, s
 
 bool is_linear(std::span<const std::uint32_t> record) { return std::bit_cast<float>(record[octant_scale]) > 0; }
 
-KernelRequest kernel_request(const DeviceVolume& data, std::uint32_t element_class) {
+KernelRequest octant_request(const DeviceVolume& data, std::uint32_t element_class) {
     KernelRequest request;
     request.name = "element_octants of element class " + std::to_string(element_class);
     request.kernel = "cut_surface/element_octants.comp";
@@ -36,7 +36,7 @@ KernelRequest kernel_request(const DeviceVolume& data, std::uint32_t element_cla
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
     request.buffers = data.curvature_records(element_class).buffers();
-    request.defines = {{"CORE_GROUP_SIZE", std::to_string(group_size)}};
+    request.defines = {{"CORE_GROUP_SIZE", std::to_string(octant_group_size)}};
     request.bindings = buffer_bindings({.storage = 3});
     request.push_constant_bytes = sizeof(std::uint32_t);
     return request;
@@ -50,7 +50,7 @@ ElementOctants::ElementOctants(const Device& device, const RuntimeVolume& volume
       m_octants(device, RecordKind::uint, data.precision(), most_octants, octant_size),
       m_nodes(device, RecordKind::uint, data.precision(), 2 * most_octants, node_size),
       m_roots(device, m_info.n_elements * sizeof(std::uint32_t)),
-      m_asked(device, (m_info.n_elements + 1) * sizeof(std::uint32_t)), m_kernel(device, kernel_request(data, element_class)),
+      m_asked(device, (m_info.n_elements + 1) * sizeof(std::uint32_t)), m_kernel(device, octant_request(data, element_class)),
       m_geometry_version(data.geometry_version()) {
     clear();
 }
@@ -116,7 +116,7 @@ std::vector<std::uint32_t> ElementOctants::divide(std::span<const std::uint32_t>
             n_bent += is_linear(record_of(words, i)) ? 0 : 1;
         }
         const std::size_t n_divided = done.size() / octant_words + n_octants + 7 * n_bent;
-        const bool is_last = level >= most_levels || m_n_octants + n_divided > most_octants;
+        const bool is_last = level >= most_octant_levels || m_n_octants + n_divided > most_octants;
         wanted.clear();
         for (std::size_t i = 0; i < n_octants; ++i) {
             const std::span<const std::uint32_t> record = record_of(words, i);
@@ -131,7 +131,7 @@ std::vector<std::uint32_t> ElementOctants::divide(std::span<const std::uint32_t>
 }
 
 std::vector<std::uint32_t> ElementOctants::evaluate(std::span<const std::uint32_t> elements_and_codes) const {
-    const std::size_t n_octants = elements_and_codes.size() / 2, at_once = std::min(n_octants, block);
+    const std::size_t n_octants = elements_and_codes.size() / 2, at_once = std::min(n_octants, octant_block);
     const Buffer input(m_device, at_once * 2 * sizeof(std::uint32_t));
     const Buffer output(m_device, at_once * octant_words * sizeof(std::uint32_t));
     const Buffer centre(m_device, sizeof(Vector3));
@@ -143,8 +143,8 @@ std::vector<std::uint32_t> ElementOctants::evaluate(std::span<const std::uint32_
         const auto count = static_cast<std::uint32_t>(std::min(at_once, n_octants - first));
         input.write_items(elements_and_codes.subspan(2 * first, 2 * std::size_t{count}));
         KernelResults results;
-        results.dispatch(m_kernel, bindings, std::as_bytes(std::span(&count, 1)), (count + group_size - 1) / group_size, output,
-                         std::size_t{count} * octant_words);
+        results.dispatch(m_kernel, bindings, std::as_bytes(std::span(&count, 1)),
+                         (count + octant_group_size - 1) / octant_group_size, output, std::size_t{count} * octant_words);
         results.read();
         words.insert(words.end(), results[0].begin(), results[0].end());
     }

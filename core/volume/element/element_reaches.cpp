@@ -11,12 +11,12 @@ namespace elvis {
 namespace {
 
 /** Elements of one dispatch, a work group each; and of one write. */
-constexpr std::size_t block = 16384;
+constexpr std::size_t reach_block = 16384;
 /** shaders/cut_surface/reach.glsl: six numbers of half precision, of which nothing is known. */
-constexpr std::uint32_t record_size = 3;
-constexpr std::uint32_t unknown = 0x7b537b53;
+constexpr std::uint32_t reach_record_size = 3;
+constexpr std::uint32_t reach_unknown = 0x7b537b53;
 
-KernelRequest kernel_request(const DeviceVolume& data, std::uint32_t element_class) {
+KernelRequest reach_request(const DeviceVolume& data, std::uint32_t element_class) {
     KernelRequest request;
     request.name = "element_reaches of element class " + std::to_string(element_class);
     request.kernel = "cut_surface/element_reaches.comp";
@@ -40,7 +40,7 @@ bool ElementReaches::has_bent(std::span<const float> curvatures) {
 ElementReaches::ElementReaches(const Device& device, const RuntimeVolume& volume, const DeviceVolume& data,
                                std::uint32_t element_class)
     : m_device(device), m_data(data), m_class(element_class), m_n_elements(volume.classes()[element_class].n_elements),
-      m_records(device, RecordKind::uint, data.precision(), m_n_elements, record_size),
+      m_records(device, RecordKind::uint, data.precision(), m_n_elements, reach_record_size),
       m_wanted(device, (m_n_elements + 1) * sizeof(std::uint32_t)), m_geometry_version(data.geometry_version()) {
     clear();
 }
@@ -48,10 +48,11 @@ ElementReaches::ElementReaches(const Device& device, const RuntimeVolume& volume
 void ElementReaches::clear() {
     m_wanted.fill(0);
     m_is_known.assign(m_n_elements, false);
-    const std::vector<std::uint32_t> words(record_size * std::min<std::uint64_t>(block, m_n_elements), unknown);
-    for (std::uint64_t first = 0; first < m_n_elements; first += block) {
-        const std::uint64_t count = std::min<std::uint64_t>(block, m_n_elements - first);
-        m_records.write_uints(first, std::span(words).first(record_size * count));
+    const std::vector<std::uint32_t> words(reach_record_size * std::min<std::uint64_t>(reach_block, m_n_elements),
+                                           reach_unknown);
+    for (std::uint64_t first = 0; first < m_n_elements; first += reach_block) {
+        const std::uint64_t count = std::min<std::uint64_t>(reach_block, m_n_elements - first);
+        m_records.write_uints(first, std::span(words).first(reach_record_size * count));
     }
 }
 
@@ -81,22 +82,22 @@ void ElementReaches::provide(const Buffer::Read& also) {
 
 void ElementReaches::bound(std::span<const std::uint32_t> elements) {
     if (!m_kernel) {
-        m_kernel.emplace(m_device, kernel_request(m_data, m_class));
+        m_kernel.emplace(m_device, reach_request(m_data, m_class));
     }
-    const std::size_t at_once = std::min(elements.size(), block);
+    const std::size_t at_once = std::min(elements.size(), reach_block);
     const Buffer input(m_device, at_once * sizeof(std::uint32_t));
-    const Buffer output(m_device, at_once * record_size * sizeof(std::uint32_t));
+    const Buffer output(m_device, at_once * reach_record_size * sizeof(std::uint32_t));
     const std::array<const Buffer*, 2> bindings = {&input, &output};
     for (std::size_t first = 0; first < elements.size(); first += at_once) {
         const std::span<const std::uint32_t> wanted = elements.subspan(first, std::min(at_once, elements.size() - first));
         input.write_items(wanted);
         KernelResults results;
         results.dispatch(*m_kernel, bindings, {}, static_cast<std::uint32_t>(wanted.size()), output,
-                         wanted.size() * record_size);
+                         wanted.size() * reach_record_size);
         results.read();
         const std::vector<std::uint32_t>& words = results[0];
         for (std::size_t i = 0; i < wanted.size(); ++i) {
-            m_records.write_uints(wanted[i], std::span(words).subspan(record_size * i, record_size));
+            m_records.write_uints(wanted[i], std::span(words).subspan(reach_record_size * i, reach_record_size));
         }
     }
 }

@@ -15,9 +15,9 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t element_group_size = 32;
 /** Elements of one dispatch: bounds its time and the memory for its results. */
-constexpr std::uint64_t block = 65536;
+constexpr std::uint64_t element_block = 65536;
 /** Of which a thread bounds the curvatures before it takes others. */
 constexpr std::uint64_t elements_a_thread = 512;
 /** Those of the record but for the number; then the curvature, and a box. */
@@ -26,7 +26,7 @@ constexpr std::uint32_t words_an_element = box_at + 6;
 /** Bounds that are estimated may be a little too narrow; more than this share of them loses what people see. */
 constexpr float visible_share = 1e-3F;
 
-struct Parameters {
+struct ElementParameters {
     std::uint32_t first, n_elements;
 };
 
@@ -105,7 +105,7 @@ KernelRequest linearize_request(std::uint32_t element_class, const SnippetInstan
     request.instances = {instance};
     request.defines = {{"CORE_IS_MEASURED", is_measured ? "1" : "0"}};
     request.bindings = {{0, BindingType::storage_buffer}, {1, BindingType::storage_buffer}};
-    request.push_constant_bytes = sizeof(Parameters);
+    request.push_constant_bytes = sizeof(ElementParameters);
     return request;
 }
 
@@ -119,15 +119,15 @@ ElementWriter::ElementWriter(const Device& device, const RuntimeVolume& volume, 
       m_output(device, n_at(0) * words_an_element * sizeof(std::uint32_t)), m_input(device, n_at(0) * sizeof(float)) {}
 
 /** Elements of one dispatch from `first` on. */
-std::uint64_t ElementWriter::n_at(std::uint64_t first) const { return std::min(block, m_info.n_elements - first); }
+std::uint64_t ElementWriter::n_at(std::uint64_t first) const { return std::min(element_block, m_info.n_elements - first); }
 
 void ElementWriter::dispatch(std::uint64_t first, KernelResults& results) const {
     const auto count = static_cast<std::uint32_t>(n_at(first));
-    const Parameters parameters{static_cast<std::uint32_t>(first), count};
+    const ElementParameters parameters{static_cast<std::uint32_t>(first), count};
     m_input.write_items(std::span<const float>(m_proven).subspan(first, count));
     const std::array<const Buffer*, 2> bindings = {&m_output, &m_input};
-    results.dispatch(m_kernel, bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size,
-                     m_output, std::size_t{count} * words_an_element);
+    results.dispatch(m_kernel, bindings, std::as_bytes(std::span(&parameters, 1)),
+                     (count + element_group_size - 1) / element_group_size, m_output, std::size_t{count} * words_an_element);
 }
 
 void ElementWriter::start(KernelResults& results) {
@@ -140,7 +140,7 @@ ElementCurvatures ElementWriter::write(const ElementBoxes& said, RecordBuffer& r
     m_curvatures.are_proven.reserve(m_info.n_elements);
     std::vector<std::int64_t> numbers;
     std::vector<std::uint32_t> words;
-    for (std::uint64_t first = 0; first < m_info.n_elements; first += block) {
+    for (std::uint64_t first = 0; first < m_info.n_elements; first += element_block) {
         const auto count = static_cast<std::uint32_t>(n_at(first));
         KernelResults results;
         if (first > 0) {

@@ -15,15 +15,15 @@ namespace elvis {
 namespace {
 
 /** Elements, or faces, asked of the plugin at once. */
-constexpr std::uint64_t block = 65536;
+constexpr std::uint64_t selection_block = 65536;
 
 /** Calls `visit` with first and count of blocks; stops as `control` says. */
 template <class Visit> void for_blocks(std::uint64_t n, const TaskControl* control, const Visit& visit) {
-    for (std::uint64_t first = 0; first < n; first += block) {
+    for (std::uint64_t first = 0; first < n; first += selection_block) {
         if (control) {
             control->check();
         }
-        visit(first, std::min(block, n - first));
+        visit(first, std::min(selection_block, n - first));
     }
 }
 

@@ -13,7 +13,7 @@ namespace elvis {
 namespace {
 
 /** Elements between two looks at the wish to stop. */
-constexpr std::uint64_t block = 16384;
+constexpr std::uint64_t jacobian_block = 16384;
 
 /** 125 points spread over the cube around the shape, clipped to it: its corners and centres of edges and faces are among them.
  */
@@ -91,12 +91,12 @@ JacobianReport check_jacobians(const RuntimeVolume& volume, double tolerance, co
     report.certainty = ELVIS_CERTIFIED;
     report.signs.reserve(volume.n_elements());
     std::vector<JacobianCheck> checks;
-    for (std::uint64_t first = 0; first < volume.n_elements(); first += block) {
+    for (std::uint64_t first = 0; first < volume.n_elements(); first += jacobian_block) {
         if (control) {
             control->check();
             control->progress(static_cast<double>(first) / static_cast<double>(volume.n_elements()), "Jacobians");
         }
-        checks.assign(std::min(block, volume.n_elements() - first), {});
+        checks.assign(std::min(jacobian_block, volume.n_elements() - first), {});
         const elvis_certainty certainty = volume.has_jacobian_checks() && volume.dimension() == 3
                                               ? volume.check_jacobians(first, tolerance, checks)
                                               : sample(volume, first, checks);

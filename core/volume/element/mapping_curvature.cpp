@@ -26,7 +26,7 @@ constexpr double most_curvature = most_measured_curvature;
 /** Of the Jacobian, relative to that at the centroid: an element with a smaller determinant folds. */
 constexpr double folded_determinant = -1e-6;
 /** For the rounding of sums, by far. */
-constexpr double margin = 1 + 1e-6;
+constexpr double mapping_margin = 1 + 1e-6;
 
 using Matrix3 = std::array<double, 9>;
 
@@ -113,7 +113,7 @@ std::optional<Part> part_of(elvis_shape shape, const Vector3& middle, double hal
 double extent(elvis_shape shape) { return shape == ELVIS_SHAPE_HEXAHEDRON ? 1.0 : shape == ELVIS_SHAPE_PRISM ? 4.0 / 3 : 1.5; }
 
 float rounded_up(double curvature) {
-    const double with_margin = margin * curvature;
+    const double with_margin = mapping_margin * curvature;
     return with_margin <= most_curvature ? std::nextafter(static_cast<float>(with_margin), unknown_curvature)
                                          : unknown_curvature;
 }

@@ -12,30 +12,30 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint32_t derivative_group_size = 32;
 /** Elements at once: bounds memory, and the time of a dispatch. */
-constexpr std::uint64_t block = 16384;
+constexpr std::uint64_t derivative_block = 16384;
 
 /** Samples miss the largest values; second derivatives, which vary most, by more. */
 constexpr double bend_safety = 2;
 constexpr double safety = 1.25;
 
 /** Stands for everything that is not finite. */
-constexpr double beyond = 3e38;
+constexpr double beyond_floats = 3e38;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double derivative_unknown = std::numeric_limits<double>::quiet_NaN();
 
 /** shaders/field/derivative_bounds.comp, which stops where a shape has fewer. */
-constexpr std::uint32_t most_points = 64, points_a_dispatch = 4;
+constexpr std::uint32_t most_derivative_points = 64, derivative_points_a_dispatch = 4;
 
-struct Parameters {
+struct DerivativeParameters {
     std::uint32_t first, n_elements, component;
     std::uint32_t first_point, end_point;
 };
 
 /** A row of the record. */
 struct Row {
-    double second = unknown, first = unknown, value = unknown, certainty = 0;
+    double second = derivative_unknown, first = derivative_unknown, value = derivative_unknown, certainty = 0;
 
     bool is_complete() const { return std::isfinite(second) && std::isfinite(first) && std::isfinite(value); }
 };
@@ -82,18 +82,18 @@ private:
 class Sampler {
 public:
     Sampler(const Device& device, const SnippetInstance& instance, Precision precision, const std::string& name)
-        : m_kernel(device, request_for(instance, precision, name)), m_output(device, 3 * block * sizeof(double)),
+        : m_kernel(device, request_for(instance, precision, name)), m_output(device, 3 * derivative_block * sizeof(double)),
           m_precision(precision) {}
 
     /** Fills what the rows of one component lack. */
     void complete(std::uint64_t first, std::uint64_t count, std::uint32_t component, std::uint32_t n_components,
                   std::vector<Row>& rows) const {
         const std::array<const Buffer*, 1> bindings = {&m_output};
-        for (std::uint32_t point = 0; point < most_points; point += points_a_dispatch) {
-            const Parameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count), component, point,
-                                        point + points_a_dispatch};
+        for (std::uint32_t point = 0; point < most_derivative_points; point += derivative_points_a_dispatch) {
+            const DerivativeParameters parameters{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                                                  component, point, point + derivative_points_a_dispatch};
             m_kernel.dispatch(bindings, std::as_bytes(std::span(&parameters, 1)),
-                              (parameters.n_elements + group_size - 1) / group_size);
+                              (parameters.n_elements + derivative_group_size - 1) / derivative_group_size);
         }
         const std::vector<double> numbers = read_reals(m_output, m_precision, 3 * count);
         for (std::uint64_t element = 0; element < count; ++element) {
@@ -118,7 +118,7 @@ private:
         request.precision = precision;
         request.instances = {instance};
         request.bindings = {{0, BindingType::storage_buffer}};
-        request.push_constant_bytes = sizeof(Parameters);
+        request.push_constant_bytes = sizeof(DerivativeParameters);
         return request;
     }
 
@@ -128,7 +128,9 @@ private:
 };
 
 /** A number that is no smaller after rounding to single precision, and finite there. */
-double widened(double bound) { return bound < beyond ? bound * (1 + 1.2e-7) + std::numeric_limits<float>::min() : beyond; }
+double widened(double bound) {
+    return bound < beyond_floats ? bound * (1 + 1.2e-7) + std::numeric_limits<float>::min() : beyond_floats;
+}
 
 } // namespace
 
@@ -143,11 +145,11 @@ std::unique_ptr<RecordBuffer> make_derivative_bounds(const Device& device, const
     std::optional<Sampler> sampler;
     std::vector<Row> rows;
     std::vector<double> numbers;
-    for (std::uint64_t first = 0; first < info.n_elements; first += block) {
+    for (std::uint64_t first = 0; first < info.n_elements; first += derivative_block) {
         if (control) {
             control->check();
         }
-        const std::uint64_t count = std::min(block, info.n_elements - first);
+        const std::uint64_t count = std::min(derivative_block, info.n_elements - first);
         rows.assign(count * n_components, Row{});
         plugin.read(info.first_element + first, count, rows);
         for (std::uint32_t component = 0; component < n_components; ++component) {

@@ -21,7 +21,7 @@ using native::Point;
 
 constexpr std::uint64_t elements_at_once = 16384;
 /** Points that may be looked at for one extremum before the bound is left as it is: some seconds. */
-constexpr std::uint64_t most_points = 1u << 22;
+constexpr std::uint64_t most_extrema_points = 1u << 22;
 /** Boxes are not halved further: their reach is that of rounding. */
 constexpr double smallest_half = 0x1p-24;
 /** Of sampled elements: those with a sample this near the best one, over the distance of the extrema, are refined. */
@@ -29,13 +29,13 @@ constexpr double refined_share = 0.1;
 constexpr int refinements = 8;
 
 /** A box in collapsed coordinates of an element, and what the objective is at most in it. */
-struct Box {
+struct BoundedBox {
     double bound = infinity;
     std::uint64_t element = 0;
     Point middle{};
     double half = 1;
 
-    friend bool operator<(const Box& a, const Box& b) { return a.bound < b.bound; }
+    friend bool operator<(const BoundedBox& a, const BoundedBox& b) { return a.bound < b.bound; }
 };
 
 /** What is known of elements before the search: infinity and NaN where the plugin proves nothing. */
@@ -70,12 +70,12 @@ private:
     void read_facts_of(std::uint32_t element_class, std::uint64_t first, std::uint64_t count);
     void look_at_corners();
     FieldExtremum largest(int sign);
-    std::vector<Box> octants_of(const Box& box, int sign);
+    std::vector<BoundedBox> octants_of(const BoundedBox& box, int sign);
     std::vector<Point> lattice(const Point& middle, double half, int n) const;
     void sample(std::uint64_t element, int sign);
     void look(std::uint64_t element, std::span<const Point> etas, bool with_gradients);
     double value(std::size_t point) const;
-    double reach(std::uint64_t element, std::size_t point, const Box& box) const;
+    double reach(std::uint64_t element, std::size_t point, const BoundedBox& box) const;
     double enclosure(std::uint64_t element, int sign) const;
     const DerivativeBounds& derivatives(std::uint64_t element, std::uint32_t component) const {
         return m_facts.derivatives[element * m_n_components + component];
@@ -201,7 +201,7 @@ void Search::look(std::uint64_t element, std::span<const Point> etas, bool with_
 }
 
 /** How far the objective may be, in the box, from its value at the point looked at, which is the box's middle. */
-double Search::reach(std::uint64_t element, std::size_t point, const Box& box) const {
+double Search::reach(std::uint64_t element, std::size_t point, const BoundedBox& box) const {
     const native::Shape shape = shape_of(element);
     Vector3 r{};
     // xi is affine in each collapsed coordinate: the corners' images reach furthest.
@@ -249,8 +249,8 @@ double Search::enclosure(std::uint64_t element, int sign) const {
 }
 
 /** The box halved in all directions. */
-std::vector<Box> Search::octants_of(const Box& box, int sign) {
-    std::vector<Box> octants;
+std::vector<BoundedBox> Search::octants_of(const BoundedBox& box, int sign) {
+    std::vector<BoundedBox> octants;
     const std::vector<Point> middles = lattice(box.middle, 0.5 * box.half, 2);
     look(box.element, middles, true);
     for (std::size_t which = 0; which < middles.size(); ++which) {
@@ -300,7 +300,7 @@ void Search::sample(std::uint64_t element, int sign) {
 }
 
 FieldExtremum Search::largest(int sign) {
-    std::priority_queue<Box> boxes;
+    std::priority_queue<BoundedBox> boxes;
     for (std::uint64_t element = 0; element < m_volume.n_elements(); ++element) {
         boxes.push({enclosure(element, sign), element, {}, 1});
     }
@@ -310,9 +310,9 @@ FieldExtremum Search::largest(int sign) {
         if (m_control) {
             m_control->check();
         }
-        const Box box = boxes.top();
+        const BoundedBox box = boxes.top();
         const double enough = sign * best(sign).value + extrema_tolerance * distance();
-        if (box.bound <= enough || box.half < smallest_half || m_n_points > most_points) {
+        if (box.bound <= enough || box.half < smallest_half || m_n_points > most_extrema_points) {
             bound = std::max(bound, box.bound);
             break;
         }
@@ -322,7 +322,7 @@ FieldExtremum Search::largest(int sign) {
             sample(box.element, sign);
             continue;
         }
-        for (const Box& octant : octants_of(box, sign)) {
+        for (const BoundedBox& octant : octants_of(box, sign)) {
             if (octant.bound > enough) {
                 boxes.push(octant);
             } else {

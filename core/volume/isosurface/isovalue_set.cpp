@@ -15,11 +15,11 @@ namespace elvis {
 namespace {
 
 /** Elements of one dispatch, or asked for at once: bounds time and memory. */
-constexpr std::uint64_t block = 65536;
-constexpr std::uint32_t group_size = 32;
+constexpr std::uint64_t isovalue_block = 65536;
+constexpr std::uint32_t isovalue_group_size = 32;
 constexpr std::size_t child_word = 3;
 constexpr std::uint32_t octant_is_estimated = 0x80000000u;
-constexpr std::uint32_t most_levels = 3;
+constexpr std::uint32_t most_isovalue_levels = 3;
 /** Of octants whose mapping is bent so much that it has no linear model. */
 constexpr std::uint32_t most_bent_levels = 6;
 /** Octants for which there is room from the beginning; that are enough for any picture; and of each element that is bent. */
@@ -67,7 +67,7 @@ struct IsovalueSet::Octants {
             slope += std::abs(double{number(octant, octant_slope + k)});
         }
         const double wanted = level > 0 ? wanted_octant_error : wanted_error;
-        return level < most_levels && number(octant, octant_error) > wanted * slope;
+        return level < most_isovalue_levels && number(octant, octant_error) > wanted * slope;
     }
     void add(const Octants& other, std::size_t octant) {
         const auto begin = other.words.begin() + static_cast<std::ptrdiff_t>(octant * octant_words);
@@ -150,8 +150,8 @@ void IsovalueSet::choose(std::span<const double> isovalues, const ScalarComponen
         of_class.boxes.clear();
         of_class.has_element_nodes = false;
         of_class.n_octants = 0;
-        for (std::uint64_t first = 0; first < info.n_elements; first += block) {
-            const std::uint64_t count = std::min(block, info.n_elements - first);
+        for (std::uint64_t first = 0; first < info.n_elements; first += isovalue_block) {
+            const std::uint64_t count = std::min(isovalue_block, info.n_elements - first);
             all.resize(6 * count);
             m_volume.bounds(info.first_element + first, count, all);
             for (std::uint64_t i = 0; i < count; ++i) {
@@ -193,7 +193,8 @@ void IsovalueSet::dispatch(const ClassOctants& of_class, std::span<const std::ui
     write_reals(*bindings[2], m_precision, m_centre);
     const OctantParameters parameters{static_cast<std::uint32_t>(count), m_component.first, m_component.end};
     results.dispatch(*of_class.octant_kernel, bindings, std::as_bytes(std::span(&parameters, 1)),
-                     static_cast<std::uint32_t>((count + group_size - 1) / group_size), *output, count * octant_words);
+                     static_cast<std::uint32_t>((count + isovalue_group_size - 1) / isovalue_group_size), *output,
+                     count * octant_words);
 }
 
 std::vector<std::uint32_t> IsovalueSet::evaluate(const ClassOctants& of_class,
@@ -201,8 +202,8 @@ std::vector<std::uint32_t> IsovalueSet::evaluate(const ClassOctants& of_class,
     std::vector<std::uint32_t> octants;
     const std::size_t n_octants = elements_and_codes.size() / 2;
     octants.reserve(n_octants * octant_words);
-    for (std::size_t first = 0; first < n_octants; first += block) {
-        const std::size_t count = std::min<std::size_t>(block, n_octants - first);
+    for (std::size_t first = 0; first < n_octants; first += isovalue_block) {
+        const std::size_t count = std::min<std::size_t>(isovalue_block, n_octants - first);
         std::vector<std::unique_ptr<const Buffer>> buffers;
         KernelResults results;
         dispatch(of_class, elements_and_codes.subspan(2 * first, 2 * count), buffers, results);
@@ -234,7 +235,7 @@ void IsovalueSet::make_octants() {
             elements.insert(elements.end(), {element, 0});
         }
         std::vector<std::uint32_t> first = ahead.with_parts(elements);
-        if (first.size() / 2 <= block) {
+        if (first.size() / 2 <= isovalue_block) {
             dispatch(of_class, first, buffers, results);
         } else {
             first.clear();

@@ -9,11 +9,11 @@ namespace elvis {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32, words_an_element = 8;
+constexpr std::uint32_t cone_group_size = 32, words_a_cone = 8;
 /** Elements of one dispatch: bounds its time and the memory for its results. */
-constexpr std::uint64_t block = 65536;
+constexpr std::uint64_t cone_block = 65536;
 
-struct Parameters {
+struct ConeParameters {
     std::uint32_t first, n_elements;
 };
 
@@ -29,17 +29,17 @@ std::unique_ptr<RecordBuffer> measure_face_cones(const Device& device, const Run
     request.precision = data.precision();
     request.instances = {data.instance(element_class)};
     request.bindings = {{0, BindingType::storage_buffer}};
-    request.push_constant_bytes = sizeof(Parameters);
+    request.push_constant_bytes = sizeof(ConeParameters);
     const ComposedKernel kernel(device, request);
-    const Buffer output(device, std::min(block, n_elements) * words_an_element * sizeof(std::uint32_t));
+    const Buffer output(device, std::min(cone_block, n_elements) * words_a_cone * sizeof(std::uint32_t));
     const std::array<const Buffer*, 1> bindings = {&output};
-    auto cones = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, words_an_element);
-    for (std::uint64_t first = 0; first < n_elements; first += block) {
-        const auto count = static_cast<std::uint32_t>(std::min(block, n_elements - first));
-        const Parameters parameters{static_cast<std::uint32_t>(first), count};
+    auto cones = std::make_unique<RecordBuffer>(device, RecordKind::uint, data.precision(), n_elements, words_a_cone);
+    for (std::uint64_t first = 0; first < n_elements; first += cone_block) {
+        const auto count = static_cast<std::uint32_t>(std::min(cone_block, n_elements - first));
+        const ConeParameters parameters{static_cast<std::uint32_t>(first), count};
         KernelResults results;
-        results.dispatch(kernel, bindings, std::as_bytes(std::span(&parameters, 1)), (count + group_size - 1) / group_size,
-                         output, std::size_t{count} * words_an_element);
+        results.dispatch(kernel, bindings, std::as_bytes(std::span(&parameters, 1)),
+                         (count + cone_group_size - 1) / cone_group_size, output, std::size_t{count} * words_a_cone);
         results.read();
         cones->write_uints(first, results[0]);
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t place_of_curvature = 7;
 /** Elements asked for at once. */
-constexpr std::uint64_t block = 1u << 16;
+constexpr std::uint64_t walk_block = 1u << 16;
 
 /** Whether a ray can start in the box. */
 bool can_start_in(std::span<const double> box, const ViewStart& start) {
@@ -56,8 +56,8 @@ WalkData::WalkData(const Device& device, const RuntimeVolume& volume, const Devi
             walk.cones = measure_face_cones(device, volume, data, index);
         }
         walk.boxes.resize(6 * info.n_elements);
-        for (std::uint64_t first = 0; first < info.n_elements; first += block) {
-            const std::uint64_t count = std::min(block, info.n_elements - first);
+        for (std::uint64_t first = 0; first < info.n_elements; first += walk_block) {
+            const std::uint64_t count = std::min(walk_block, info.n_elements - first);
             std::vector<double> boxes(6 * count);
             volume.bounds(info.first_element + first, count, boxes);
             std::ranges::copy(boxes, walk.boxes.begin() + static_cast<std::ptrdiff_t>(6 * first));
