@@ -38,83 +38,88 @@ bool core_is_of_class(uint global_element) {
     return global_element >= core_first_element && global_element - core_first_element < core_n_elements;
 }
 
-// Goes from element to element towards the point of the ray at t, until one holds it. Returns that element; or CORE_NO_ELEMENT, and in
-// `other` the global element of another class in which to go on, if there is one. `is_lost`: the search has failed.
-uint core_find_around(const core_traced_ray ray, uint element, elvis_real t, out uint other, out bool is_lost) {
-    other = CORE_NO_LINK;
-    bool has_left = false;
-    uint hops = 0u;
-    bool is_found = false;
-    elvis_real x = CORE_CENTROID.x, y = CORE_CENTROID.y, z = CORE_CENTROID.z;
-    uint steps = 0u;
-    bool is_over = false;
-    while (!is_over) {
-        const core_ray_evaluation here = core_evaluate_ray(ray, element, elvis_vec3(x, y, z), t);
-        const elvis_vec3 next = elvis_vec3(x, y, z) + clamp(here.model.newton_step, elvis_vec3(-4), elvis_vec3(4));
-        const elvis_real noise = elvis_real(4) * core_max_norm(here.model.noise);
-        steps += 1u;
-        const bool is_there = core_max_norm(here.model.newton_step) <= noise || steps >= 8u;
-        elvis_real worst = elvis_real(-4);
-        uint worst_face = 0u;
-        for (int face = 0; face < CORE_N_FACES; ++face) {
-            const elvis_vec4 constraint = core_face_constraint(face);
-            const elvis_real excess = dot(constraint.xyz, next) + constraint.w;
-            worst_face = excess > worst ? uint(face) : worst_face;
-            worst = max(worst, excess);
-        }
-        is_found = is_there && worst <= noise;
-        const bool leaves = is_there && !is_found;
-        const uint link = elvis_fetch_core_links(element, worst_face);
-        const bool is_of_class = core_is_of_class(link);
-        hops += leaves ? 1u : 0u;
-        other = leaves && !is_of_class ? link : other;
-        has_left = leaves && !is_of_class;
-        is_over = is_found || has_left || hops >= CORE_MOST_HOPS || !here.frame.is_sound;
-        element = leaves && is_of_class ? link - core_first_element : element;
-        steps = leaves ? 0u : steps;
-        elvis_real new_x = next.x, new_y = next.y, new_z = next.z;
-        core_project(new_x, new_y, new_z);
-        x = leaves ? CORE_CENTROID.x : new_x;
-        y = leaves ? CORE_CENTROID.y : new_y;
-        z = leaves ? CORE_CENTROID.z : new_z;
+// Goes from element to element towards the point of the ray at t, until one holds it.
+struct core_around {
+    bool is_open;
+    uint element;
+    elvis_real t, x, y, z;
+    uint hops, steps;
+    bool is_found, has_left;
+    // The global element of another class in which to go on, where it has left this one; CORE_NO_LINK if there is none.
+    uint other;
+};
+
+core_around core_around_begin(bool is_wanted, uint element, elvis_real t) {
+    return core_around(is_wanted, element, t, CORE_CENTROID.x, CORE_CENTROID.y, CORE_CENTROID.z, 0u, 0u, false, false, CORE_NO_LINK);
+}
+
+// `here`: at the search's point.
+void core_around_step(const core_ray_evaluation here, inout core_around around) {
+    const elvis_vec3 next =
+        elvis_vec3(around.x, around.y, around.z) + clamp(here.model.newton_step, elvis_vec3(-4), elvis_vec3(4));
+    const elvis_real noise = elvis_real(4) * core_max_norm(here.model.noise);
+    around.steps += 1u;
+    const bool is_there = core_max_norm(here.model.newton_step) <= noise || around.steps >= 8u;
+    elvis_real worst = elvis_real(-4);
+    uint worst_face = 0u;
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const elvis_real excess = dot(constraint.xyz, next) + constraint.w;
+        worst_face = excess > worst ? uint(face) : worst_face;
+        worst = max(worst, excess);
     }
-    is_lost = !is_found && !has_left;
+    around.is_found = is_there && worst <= noise;
+    const bool leaves = is_there && !around.is_found;
+    const uint link = elvis_fetch_core_links(around.element, worst_face);
+    const bool is_of_class = core_is_of_class(link);
+    around.hops += leaves ? 1u : 0u;
+    around.has_left = leaves && !is_of_class;
+    around.other = around.has_left ? link : around.other;
+    around.is_open = !around.is_found && !around.has_left && around.hops < CORE_MOST_HOPS && here.frame.is_sound;
+    around.element = leaves && is_of_class ? link - core_first_element : around.element;
+    around.steps = leaves ? 0u : around.steps;
+    elvis_real x = next.x, y = next.y, z = next.z;
+    core_project(x, y, z);
+    around.x = leaves ? CORE_CENTROID.x : x;
+    around.y = leaves ? CORE_CENTROID.y : y;
+    around.z = leaves ? CORE_CENTROID.z : z;
+}
+
+// Whether it has found an element that holds the point.
+bool core_around_is_held(const core_around around) {
 #if ELVIS_HAS_INSIDE
     // Beyond the element's own boundary no neighbour is known.
-    is_found = is_found && core_is_within(element, elvis_vec3(x, y, z), elvis_vec3(CORE_ALONG));
+    return around.is_found && core_is_within(around.element, elvis_vec3(around.x, around.y, around.z), elvis_vec3(CORE_ALONG));
+#else
+    return around.is_found;
 #endif
-    return is_found ? element : CORE_NO_ELEMENT;
 }
 
 // Where the ray leaves the element as Newton's method predicts it, without bounds: for rays that run along a curved face within
 // rounding. That face does not count. The segment is an estimate.
-void core_leave_roughly(const core_traced_ray ray, elvis_real from, inout core_segment segment) {
-    elvis_real leave = from;
-    int leave_face = CORE_NO_FACE;
-    for (uint iteration = 0u; iteration < CORE_ROUGH_ITERATIONS; ++iteration) {
-        const elvis_vec3 predicted = core_predicted(segment.anchor, leave);
-        elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
-        core_project(x, y, z);
-        const core_ray_model model = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), leave).model;
-        elvis_real first = from + ray.longest;
-        for (int face = 0; face < CORE_N_FACES; ++face) {
-            const elvis_vec4 constraint = core_face_constraint(face);
-            const elvis_real value = dot(constraint.xyz, model.at) + constraint.w, rate = dot(constraint.xyz, model.slope);
-            const elvis_real root = leave - value / rate;
-            const bool is_along = abs(value) + abs(value + (from - leave) * rate) <= elvis_real(CORE_ALONG);
-            const bool is_first = rate > elvis_real(0) && !is_along && root > from && root < first;
-            leave_face = is_first ? face : leave_face;
-            first = is_first ? root : first;
-        }
-        segment.anchor = core_ray_point_at(leave, model.at, model.slope);
-        leave = first;
+struct core_rough {
+    bool is_open;
+    uint iterations;
+    elvis_real from, leave;
+    int leave_face;
+};
+
+// `model`: of the ray at where it is to leave.
+void core_rough_step(const core_traced_ray ray, const core_ray_model model, inout core_rough rough, inout core_segment segment) {
+    elvis_real first = rough.from + ray.longest;
+    for (int face = 0; face < CORE_N_FACES; ++face) {
+        const elvis_vec4 constraint = core_face_constraint(face);
+        const elvis_real value = dot(constraint.xyz, model.at) + constraint.w, rate = dot(constraint.xyz, model.slope);
+        const elvis_real root = rough.leave - value / rate;
+        const bool is_along = abs(value) + abs(value + (rough.from - rough.leave) * rate) <= elvis_real(CORE_ALONG);
+        const bool is_first = rate > elvis_real(0) && !is_along && root > rough.from && root < first;
+        rough.leave_face = is_first ? face : rough.leave_face;
+        first = is_first ? root : first;
     }
-    segment.enter = from;
-    segment.enter_error = elvis_real(0);
-    segment.leave = leave;
-    segment.leave_face = leave_face;
-    segment.newton_step = elvis_real(3e38LF);
-    segment.is_estimated = true;
+    segment.anchor = core_ray_point_at(rough.leave, model.at, model.slope);
+    rough.leave = first;
+    rough.iterations += 1u;
+    rough.is_open = rough.iterations < CORE_ROUGH_ITERATIONS;
 }
 
 bool core_walk_goes_here(core_walk walk) { return walk.status == CORE_RAY_GOES && core_is_of_class(walk.global_element); }
@@ -194,18 +199,38 @@ void core_walk_go_on(const core_traced_ray ray, int leave_face, core_passage pas
 bool core_walk_needs_help(core_walk walk) { return walk.needs_roughly || walk.needs_element; }
 
 void core_walk_help(const core_traced_ray ray, inout core_walk walk, inout core_segment segment) {
+    const elvis_real probe = walk.at + elvis_real(4) * exp2(float(min(walk.n_lost - 1u, 30u))) * ray.tolerance;
+    core_around around = core_around_begin(walk.needs_element, walk.global_element - core_first_element, probe);
+    core_rough rough = core_rough(walk.needs_roughly, 0u, walk.at, walk.at, CORE_NO_FACE);
+    while (rough.is_open || around.is_open) {
+        const elvis_vec3 predicted = core_predicted(segment.anchor, rough.leave);
+        elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
+        core_project(x, y, z);
+        const uint element = rough.is_open ? segment.element : around.element;
+        const elvis_vec3 xi = rough.is_open ? elvis_vec3(x, y, z) : elvis_vec3(around.x, around.y, around.z);
+        const core_ray_evaluation here = core_evaluate_ray(ray, element, xi, rough.is_open ? rough.leave : around.t);
+        if (rough.is_open) {
+            core_rough_step(ray, here.model, rough, segment);
+        } else {
+            core_around_step(here, around);
+        }
+        if (!(rough.is_open || around.is_open)) {
+            break;
+        }
+    }
     if (walk.needs_roughly) {
-        core_leave_roughly(ray, walk.at, segment);
+        segment.enter = walk.at;
+        segment.enter_error = elvis_real(0);
+        segment.leave = rough.leave;
+        segment.leave_face = rough.leave_face;
+        segment.newton_step = elvis_real(3e38LF);
+        segment.is_estimated = true;
         walk.flags |= CORE_FLAG_UNDECIDED;
         walk.has_segment = true;
     }
     if (walk.needs_element) {
-        const elvis_real probe = walk.at + elvis_real(4) * exp2(float(min(walk.n_lost - 1u, 30u))) * ray.tolerance;
-        uint other;
-        bool is_lost;
-        const uint found = core_find_around(ray, walk.global_element - core_first_element, probe, other, is_lost);
-        walk.flags |= is_lost ? CORE_FLAG_UNDECIDED : 0u;
-        walk.global_element = found != CORE_NO_ELEMENT ? core_first_element + found : other;
+        walk.flags |= !around.is_found && !around.has_left ? CORE_FLAG_UNDECIDED : 0u;
+        walk.global_element = core_around_is_held(around) ? core_first_element + around.element : around.other;
         walk.at = probe;
         walk.is_ahead = true;
         walk.status = walk.global_element == CORE_NO_LINK ? CORE_RAY_SEEKS : CORE_RAY_GOES;
