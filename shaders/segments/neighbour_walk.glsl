@@ -225,6 +225,8 @@ void core_walk_help(const core_traced_ray ray, inout core_walk walk, inout core_
         segment.leave_face = rough.leave_face;
         segment.newton_step = elvis_real(3e38LF);
         segment.is_estimated = true;
+        // Those of the search that failed have been counted.
+        segment.iterations = 0u;
         walk.flags |= CORE_FLAG_UNDECIDED;
         walk.has_segment = true;
     }

@@ -89,7 +89,10 @@ elvis_real core_segment_from(core_traced_ray ray, bool is_met, inout core_walk w
     return is_joined ? walk.done : walk.at;
 }
 
-bool core_has_time(uint n_elements, uint work) { return n_elements < CORE_MOST_ELEMENTS && work < CORE_WORK_LIMIT; }
+// Where the ray leaves roughly is not known in the next dispatch: it would be looked for again.
+bool core_has_time(const core_march march, const core_walk walk) {
+    return (march.n_elements < CORE_MOST_ELEMENTS && march.work < CORE_WORK_LIMIT) || walk.has_segment;
+}
 
 void main() {
     const uvec2 place = core_group_pixel(core_first_group, core_size.x);
@@ -103,8 +106,8 @@ void main() {
     core_march march = core_march(state.light, core_load_piece(0u), state.step, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     core_segment segment = core_no_segment();
     bool goes = core_walk_goes_here(walk);
-    while (goes && core_has_time(march.n_elements, march.work)) {
-        while (goes && core_has_time(march.n_elements, march.work)) {
+    while (goes && core_has_time(march, walk)) {
+        while (goes && core_has_time(march, walk)) {
             const uint work_before = march.work;
             const core_passage passage = core_walk_pass(ray, walk, segment);
             march.n_elements += 1u;

@@ -80,7 +80,8 @@ bool core_is_shortest(const core_integral integral) {
 }
 
 // Up to where light is integrated, and how long the step from there is.
-bool core_integral_may_stop(const core_integral integral) { return true; }
+// Not before a step is done: each dispatch gets on, whatever has used up its time before.
+bool core_integral_may_stop(const core_integral integral) { return integral.left > integral.from; }
 elvis_real core_integral_done(const core_integral integral) { return integral.left; }
 elvis_real core_integral_step(const core_integral integral) { return integral.right - integral.left; }
 
