@@ -180,8 +180,10 @@ private:
         return {};
     }
 
-    static bool mentions(const Instruction& instruction, Id id) {
-        return std::find(instruction.words.begin() + 1, instruction.words.end(), id) != instruction.words.end();
+    /** Of a variable: itself, or a pointer into it. A number that happens to be the same counts, too. */
+    bool mentions(const Instruction& instruction, Id variable) const {
+        return std::any_of(instruction.words.begin() + 1, instruction.words.end(),
+                           [&](std::uint32_t word) { return root(word) == variable; });
     }
 
     bool writes(const Instruction& instruction, Id id) const {

@@ -47,6 +47,14 @@ uint core_add(inout uint x, inout uint y) {
     y += 10u;
     return 100u * x + y;
 }
+void core_part_first(inout uint part, inout core_pair x) {
+    part = 50u;
+    x.b[1] = 60u;
+}
+void core_part_last(inout core_pair x, inout uint part) {
+    part = 50u;
+    x.b[1] = 60u;
+}
 uint core_change(inout core_pair x) {
     x.a += 1u;
     x.b[1] += 1u;
@@ -91,6 +99,11 @@ void main() {
     result[15] = q.a;
     core_set(q, 6u);
     result[16] = core_read(q);
+    // A part of a variable beside the whole.
+    core_part_first(q.b[1], q);
+    result[17] = q.b[1];
+    core_part_last(q, q.b[1]);
+    result[18] = q.b[1];
 }
 )";
 
@@ -111,7 +124,7 @@ TEST_CASE("Arguments that are not copied are as if they were") {
     DeviceOptions options;
     options.validation = true;
     const Device device(options);
-    constexpr std::size_t n = 17;
+    constexpr std::size_t n = 19;
     const Buffer result(device, n * sizeof(std::uint32_t));
     KernelRequest request;
     request.name = "argument test";
@@ -122,7 +135,8 @@ TEST_CASE("Arguments that are not copied are as if they were") {
     const ComposedKernel kernel(device, request);
     const std::array<const Buffer*, 1> bindings{&result};
     kernel.dispatch(bindings, {}, 1);
-    const std::vector<std::uint32_t> expected{31, 31, 97, 131, 31, 131, 32, 32, 33, 212, 212, 12, 2031, 8042, 45, 3137, 36};
+    const std::vector<std::uint32_t> expected{31,  31, 97,   131,  31, 131,  32, 32, 33, 212,
+                                              212, 12, 2031, 8042, 45, 3137, 36, 60, 50};
     CHECK(result.read_items<std::uint32_t>(n) == expected);
     CHECK(device.validation_messages() == std::vector<std::string>{});
 }
