@@ -52,7 +52,9 @@ public:
         for (std::size_t i = 0; i < m_code.size(); ++i) {
             note(i);
         }
-        while (find_written()) {
+        bool has_found = true;
+        while (has_found) {
+            has_found = find_written();
         }
     }
 

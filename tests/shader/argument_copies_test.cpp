@@ -7,7 +7,6 @@
 
 #include <glslang/SPIRV/spirv.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 

@@ -316,11 +316,13 @@ TEST_CASE("rays along faces of bent elements are followed to their ends") {
         largest = std::max(largest, std::abs(frame.color[i] - exact.color[i]));
     }
     WARN(frame.counts.undecided_pixels << " undecided, off by " << largest << " at most");
-    // Was 3, which took most of the time.
+    // Was 3, which took most of the time, and were off by 0.36.
     CHECK(frame.counts.work_limit_pixels + exact.counts.work_limit_pixels == 0);
     CHECK(frame.counts.volume_pixels > 2000);
-    CHECK(frame.counts.undecided_pixels < 10);
-    CHECK(largest <= 1e-3);
+    // 4: by which face such a ray leaves is rounding's to say, which differs a little between processors.
+    CHECK(frame.counts.undecided_pixels <= 6);
+    // 2.4e-5; the tolerance asked for is 1e-3.
+    CHECK(largest <= 1e-4);
 }
 
 TEST_CASE("what is passed over of a volume changes nothing") {
