@@ -2,9 +2,9 @@
 
 #include <core/base/cache.hpp>
 #include <core/base/error.hpp>
-#include <core/shader/argument_copies.hpp>
 #include <core/shader/includes.hpp>
 #include <core/shader/snippet_check.hpp>
+#include <core/spirv/partial_evaluation.hpp>
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -20,7 +20,7 @@ namespace elvis {
 namespace {
 
 /** Raise when the way of compiling changes, so that old cache entries are not taken. */
-constexpr const char* way_of_compiling = "2";
+constexpr const char* way_of_compiling = "3";
 
 std::string compiler_version() {
     const glslang::Version version = glslang::GetVersion();
@@ -78,10 +78,10 @@ std::vector<std::uint32_t> run_compiler(const std::string& text, const std::stri
     }
     std::vector<std::uint32_t> spirv;
     glslang::SpvOptions options;
-    options.disableOptimizer = true; // Drivers optimize; spirv-opt takes a second and gains nothing that was measured.
+    options.disableOptimizer = true; // spirv-opt takes a second a kernel, and drivers take as long as without it.
     options.validate = false;
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv, &options);
-    spirv = drop_argument_copies(spirv);
+    spirv = evaluate_partially(spirv);
 #ifndef NDEBUG
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
     std::string complaint;

@@ -152,12 +152,11 @@ uint core_newton_step(uint element, elvis_vec3 target, elvis_real position_error
     if (outside) {
         return CORE_NEWTON_OUTSIDE;
     }
-    if (!is_regular || state.steps >= CORE_NEWTON_STEPS) {
-        core_newton_restart(state);
-        if (state.start >= CORE_NEWTON_STARTS) {
-            // Predictions that never settle but always point out of the element, from wherever they start, say outside.
-            return state.always_outside ? CORE_NEWTON_OUTSIDE : CORE_NEWTON_FAILED;
-        }
+    if (is_regular && state.steps < CORE_NEWTON_STEPS) {
+        return CORE_NEWTON_RUNNING;
     }
-    return CORE_NEWTON_RUNNING;
+    core_newton_restart(state);
+    // Predictions that never settle but always point out of the element, from wherever they start, say outside.
+    const uint spent = state.always_outside ? CORE_NEWTON_OUTSIDE : CORE_NEWTON_FAILED;
+    return state.start >= CORE_NEWTON_STARTS ? spent : CORE_NEWTON_RUNNING;
 }

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/**
+ * Of a kernel in valid SPIR-V as glslang writes it: one that computes the same, in one function without calls. What is
+ * known before it runs is not computed when it runs: loops of known length are written out, conditions that are known
+ * decided, arrays that they index taken apart, values that were stored not loaded again (partial evaluation, Jones,
+ * Gomard and Sestoft, 1993). Floating point operations stay as they are, one by one.
+ *
+ * Drivers do the same, but look at the whole kernel again after each loop. A kernel in which a function returns from
+ * within a loop, or has a switch, is left as it is.
+ */
+std::vector<std::uint32_t> evaluate_partially(std::span<const std::uint32_t> spirv);
+
+} // namespace elvis
