@@ -12,8 +12,8 @@ namespace elvis {
  * decided, arrays that they index taken apart, values that were stored not loaded again (partial evaluation, Jones,
  * Gomard and Sestoft, 1993). Floating point operations stay as they are, one by one.
  *
- * Drivers do the same, but look at the whole kernel again after each loop. A kernel in which a function returns from
- * within a loop, or has a switch, is left as it is.
+ * Drivers do the same, but look at the whole kernel again after each loop. A kernel is left as it is where a function has a
+ * switch, or returns from within a loop, or from a branch within a branch behind which it goes on.
  */
 std::vector<std::uint32_t> evaluate_partially(std::span<const std::uint32_t> spirv);
 
