@@ -85,8 +85,11 @@ bool has_wide_lines(const Surface& surface) {
 
 void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
     for (const Surface& surface : request.surfaces) {
-        if (surface.opacity < 1) {
-            refuse(scene, "a surface that can be seen through");
+        if (surface.opacity < 1 && surface.has_lines()) {
+            refuse(scene, "lines on a surface that can be seen through");
+        }
+        if (surface.opacity < 1 && request.volume) {
+            refuse(scene, "a surface that can be seen through together with light of the volume");
         }
         if (surface.outside) {
             refuse(scene, "a surface with a colour where it lies in no element");
@@ -111,11 +114,15 @@ void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
     }
 }
 
-/** As in pictures of the whole: of two surfaces at the same depth the first one is seen. */
+/** As in pictures of the whole: of two surfaces at the same depth the first one is seen. What can be seen through comes last.
+ */
 std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
     std::vector<std::size_t> order(surfaces.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_partition(order, [&](std::size_t index) { return !surfaces[index].is_see_through(); });
+    std::ranges::stable_sort(order, {}, [&](std::size_t index) {
+        const Surface& surface = surfaces[index];
+        return surface.opacity < 1 ? 2 : surface.is_see_through() ? 1 : 0;
+    });
     return order;
 }
 
@@ -147,6 +154,8 @@ struct VolumeInParts::Impl {
     void share_ranges(const FrameRequest& request);
     Scene with_glyphs(const Scene& scene);
     DrawParts drawing(const FrameRequest& request);
+    DrawParts drawing_layers(const FrameRequest& alone);
+    void need_memory_for(const FrameRequest& request, const Renderer& renderer, const std::string& what) const;
     DrawParts drawing_light(const FrameRequest& request, std::vector<double> depths);
     std::vector<double> shades(const FrameRequest& alone, SharedFold& fold);
     SharedFrame draw_surfaces(const FrameRequest& request, SharedFold& fold);
@@ -217,6 +226,28 @@ DrawParts VolumeInParts::Impl::drawing(const FrameRequest& request) {
     };
 }
 
+/** Of what can be drawn in one piece alone. */
+void VolumeInParts::Impl::need_memory_for(const FrameRequest& request, const Renderer& renderer,
+                                          const std::string& what) const {
+    if (renderer.most_pixels(request) < std::uint64_t{request.width} * request.height) {
+        throw Error("image", "a picture of so many pixels of " + what + " cannot be drawn in parts on this device");
+    }
+}
+
+/** Of a surface that can be seen through. */
+DrawParts VolumeInParts::Impl::drawing_layers(const FrameRequest& alone) {
+    FrameRequest request = alone;
+    request.gives_layers = true;
+    return [this, request](const std::function<void(const PartPicture&)>& take) {
+        for (const DrawnPart& part : parts) {
+            Renderer& renderer = part.elements->renderer();
+            need_memory_for(request, renderer, "a surface that can be seen through");
+            take(part_layers(part.part, renderer.render(request, control),
+                             [&](std::int64_t number) { return part.own.hold(number); }));
+        }
+    };
+}
+
 /** `depths`: of what hides the volume, of each pixel. */
 DrawParts VolumeInParts::Impl::drawing_light(const FrameRequest& request, std::vector<double> depths) {
     FrameRequest light = request;
@@ -227,10 +258,7 @@ DrawParts VolumeInParts::Impl::drawing_light(const FrameRequest& request, std::v
     return [this, light](const std::function<void(const PartPicture&)>& take) {
         for (const BarePart& part : bare_parts) {
             Renderer& renderer = part.elements->renderer();
-            if (renderer.most_pixels(light) < std::uint64_t{light.width} * light.height) {
-                throw Error("image",
-                            "a picture of so many pixels of the volume itself cannot be drawn in parts on this device");
-            }
+            need_memory_for(light, renderer, "the volume itself");
             take(part_picture(part.part, renderer.render(light, control), {}));
         }
     };
@@ -262,7 +290,11 @@ SharedFrame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request, Shar
         if (alone.surfaces[0].lic) {
             alone.shades = std::make_shared<const std::vector<double>>(shades(alone, fold));
         }
-        fold.add(fold.surface(alone, drawing(alone)), index, picture);
+        if (alone.surfaces[0].opacity < 1) {
+            fold.add_layers(alone, drawing_layers(alone), index, picture);
+        } else {
+            fold.add(fold.surface(alone, drawing(alone)), index, picture);
+        }
     }
     fold.finish_surfaces(picture);
     return picture;

@@ -17,8 +17,6 @@ namespace elvis {
 namespace {
 
 constexpr double behind_everything = std::numeric_limits<double>::infinity();
-/** Of the diagonal: much more than the depth of one surface differs by between two parts' pictures. */
-constexpr double same_depth = 1e-4;
 /** What was perhaps not found holds whatever others show. */
 constexpr std::uint32_t misses =
     pixel_flag::newton_failure | pixel_flag::isosurface_undecided | pixel_flag::work_limit | pixel_flag::estimated;
@@ -46,7 +44,7 @@ std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPixels> par
     for (const PartPixels& one : parts) {
         for (const PartPixel& pixel : one.pixels) {
             Shown& here = shown[pixel.pixel];
-            here.doubt |= pixel.flags & (pixel.is_hit() && pixel.is_own == 0 ? misses : own_doubts);
+            here.doubt |= doubts_of(pixel);
             here.beside |= pixel.is_hit() ? 0 : pixel.flags;
             if (pixel.is_own != 0 && is_nearer(pixel, here.own)) {
                 here.own = &pixel;
@@ -262,6 +260,10 @@ void crop(Frame& frame, const PixelBlock& block, const PixelBlock& kept) {
 
 } // namespace
 
+std::uint32_t doubts_of(const PartPixel& pixel) {
+    return pixel.flags & (pixel.is_hit() && pixel.is_own == 0 ? misses : own_doubts);
+}
+
 std::uint32_t reach_of_fold(const FrameRequest& request) {
     std::uint32_t reach = 0;
     if (open_lines(request) != 0) {
@@ -321,14 +323,17 @@ Frame folded_facts(const FrameRequest& request, std::span<const Frame> parts) {
     return facts;
 }
 
+std::uint32_t merged_flags(std::uint32_t picture, std::uint32_t surface, bool is_drawn, bool is_nearest) {
+    const std::uint32_t front = is_nearest ? surface : picture, back = is_nearest ? picture : surface;
+    const std::uint32_t staying = back & (is_drawn ? own_doubts : lower_half);
+    return (front & lower_half) | ((front | back) & ~lower_half) | (staying << half_bits);
+}
+
 void add_surface(const Frame& surface, Frame& picture) {
     for (std::size_t pixel = 0; pixel < picture.flags.size(); ++pixel) {
         const bool is_drawn = surface.element[pixel] >= 0, is_empty = picture.element[pixel] < 0;
         const bool is_nearest = is_drawn && (is_empty || surface.depth[pixel] < picture.depth[pixel]);
-        const std::uint32_t front = is_nearest ? surface.flags[pixel] : picture.flags[pixel];
-        const std::uint32_t back = is_nearest ? picture.flags[pixel] : surface.flags[pixel];
-        const std::uint32_t staying = back & (is_drawn ? own_doubts : lower_half);
-        picture.flags[pixel] = (front & lower_half) | ((front | back) & ~lower_half) | (staying << half_bits);
+        picture.flags[pixel] = merged_flags(picture.flags[pixel], surface.flags[pixel], is_drawn, is_nearest);
         if (is_nearest) {
             picture.element[pixel] = surface.element[pixel];
             picture.value[pixel] = surface.value[pixel];

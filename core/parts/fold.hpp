@@ -42,8 +42,15 @@ Frame empty_block(const FrameRequest& request, const PixelBlock& block, Precisio
 Frame folded(const FrameRequest& request, const PixelBlock& block, const PixelBlock& kept, std::span<const PartPixels> parts,
              double diagonal, Precision precision);
 
+/** What of a part's flags holds for the pixel, whatever is nearest there. */
+std::uint32_t doubts_of(const PartPixel& pixel);
+/** Of the diagonal: much more than the depth of one surface differs by between two parts' pictures. */
+inline constexpr double same_depth = 1e-4;
+
 /** Adds pixels of a folded surface, as shaders/picture/merge.comp does. */
 void add_surface(const Frame& surface, Frame& picture);
+/** Of one pixel: its flags with those of a surface that it shows, if it is the nearest, or hides. */
+std::uint32_t merged_flags(std::uint32_t picture, std::uint32_t surface, bool is_drawn, bool is_nearest);
 /** When all are added: flags as callers know them. */
 void finish_surfaces(Frame& picture);
 

@@ -1,5 +1,6 @@
 #include <core/parts/part_picture.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <type_traits>
@@ -38,14 +39,15 @@ struct FactsHead {
 
 } // namespace
 
-PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own) {
-    PartPicture picture;
-    picture.part = part;
+namespace {
+
+/** Of a frame of the part, or of a layer of it. */
+void add_pixels(const Frame& frame, const std::function<bool(std::int64_t)>& is_own, std::vector<PartPixel>& pixels) {
     for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
         PartPixel found;
         found.pixel = static_cast<std::uint32_t>(pixel);
         found.flags = frame.flags[pixel];
-        found.element = frame.element[pixel];
+        found.element = frame.color[4 * pixel + 3] > 0 ? frame.element[pixel] : -1;
         if (!found.is_hit() && found.flags == 0) {
             continue;
         }
@@ -54,15 +56,39 @@ PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bo
         std::memcpy(found.normal.data(), &frame.normal[3 * pixel], sizeof found.normal);
         std::memcpy(found.color.data(), &frame.color[4 * pixel], sizeof found.color);
         found.is_own = found.is_hit() && is_own(found.element) ? 1 : 0;
-        picture.pixels.push_back(found);
+        pixels.push_back(found);
     }
-    picture.facts = std::move(frame);
-    for (auto* const numbers : {&picture.facts.color, &picture.facts.value, &picture.facts.depth, &picture.facts.normal}) {
+}
+
+} // namespace
+
+PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own) {
+    PartPicture picture;
+    picture.part = part;
+    add_pixels(frame, is_own, picture.pixels);
+    picture.take_facts(std::move(frame));
+    return picture;
+}
+
+PartPicture part_layers(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own) {
+    PartPicture picture;
+    picture.part = part;
+    for (const Frame& layer : std::exchange(frame.layers, {})) {
+        add_pixels(layer, is_own, picture.pixels);
+    }
+    std::ranges::stable_sort(picture.pixels, {},
+                             [](const PartPixel& one) { return std::pair(one.pixel, one.is_hit() ? one.depth : 0); });
+    picture.take_facts(std::move(frame));
+    return picture;
+}
+
+void PartPicture::take_facts(Frame frame) {
+    facts = std::move(frame);
+    for (auto* const numbers : {&facts.color, &facts.value, &facts.depth, &facts.normal}) {
         *numbers = {};
     }
-    picture.facts.element = {};
-    picture.facts.flags = {};
-    return picture;
+    facts.element = {};
+    facts.flags = {};
 }
 
 void pack_facts(const Frame& facts, std::vector<std::byte>& bytes) {

@@ -36,10 +36,14 @@ struct PartPicture {
     std::vector<PartPixel> pixels;
     /** All of the part's frame that is not of pixels: counts, times, what is met, light of the volume. */
     Frame facts;
+
+    void take_facts(Frame frame);
 };
 
 /** `is_own`: whether the element of that number is the part's. */
 PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own);
+/** Of Frame::layers: a pixel for each of them in which something is seen, the nearest first. */
+PartPicture part_layers(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own);
 
 /** Facts to be sent, one part's after the other's; and back. Between processes of one program on machines of one kind. */
 void pack_facts(const Frame& facts, std::vector<std::byte>& bytes);

@@ -2,7 +2,6 @@
 
 #include <core/base/milliseconds.hpp>
 #include <core/parts/collect_tiles.hpp>
-#include <core/parts/tile_parcels.hpp>
 
 #include <algorithm>
 #include <array>
@@ -61,18 +60,24 @@ SharedFrame SharedFold::empty() const {
     return picture;
 }
 
-SharedFrame SharedFold::surface(const FrameRequest& alone, const DrawParts& draw) {
-    const std::uint32_t reach = reach_of_fold(alone);
+/** What parts show of a surface in own tiles; and facts of own parts. */
+ReceivedParcels<PartPixel> SharedFold::exchanged(const DrawParts& draw, std::uint32_t reach, std::vector<std::byte>& facts) {
     TileParcels<PartPixel> parcels(m_shares, reach);
-    std::vector<std::byte> facts;
     draw([&](const PartPicture& picture) {
         parcels.add(picture.part, picture.pixels);
         pack_facts(picture.facts, facts);
     });
     std::vector<std::vector<std::byte>> sent = parcels.take();
     m_work.sent_bytes += bytes_in(sent);
-    const ReceivedParcels<PartPixel> received(m_team.exchanged(std::move(sent)));
+    ReceivedParcels<PartPixel> received(m_team.exchanged(std::move(sent)));
     m_work.received_bytes += received.n_bytes();
+    return received;
+}
+
+SharedFrame SharedFold::surface(const FrameRequest& alone, const DrawParts& draw) {
+    const std::uint32_t reach = reach_of_fold(alone);
+    std::vector<std::byte> facts;
+    const ReceivedParcels<PartPixel> received = exchanged(draw, reach, facts);
     SharedFrame surface;
     for (const std::uint32_t tile : m_shares.tiles(m_team.rank())) {
         const PixelBlock block = m_shares.block(tile, reach);
@@ -83,6 +88,23 @@ SharedFrame SharedFold::surface(const FrameRequest& alone, const DrawParts& draw
     return surface;
 }
 
+void SharedFold::add_layers(const FrameRequest& alone, const DrawParts& draw, std::size_t index, SharedFrame& picture) {
+    std::vector<std::byte> facts;
+    const ReceivedParcels<PartPixel> received = exchanged(draw, 0, facts);
+    if (picture.layers.empty()) {
+        for (const Frame& tile : picture.tiles) {
+            picture.layers.emplace_back(tile);
+        }
+    }
+    const auto tiles = m_shares.tiles(m_team.rank());
+    for (std::size_t k = 0; k < tiles.size(); ++k) {
+        const PixelBlock block = m_shares.block(tiles[k]);
+        const auto parts = parts_in(received, tiles[k], block, m_request.width, &PartPixels::pixels);
+        picture.layers[k].add(folded_layers(block.n_pixels(), parts, m_diagonal), picture.tiles[k]);
+    }
+    add_surface_facts(folded_facts(alone, facts_in(m_team.gathered(std::move(facts)))), index, picture.facts);
+}
+
 void SharedFold::add(const SharedFrame& surface, std::size_t index, SharedFrame& picture) const {
     for (std::size_t tile = 0; tile < picture.tiles.size(); ++tile) {
         add_surface(surface.tiles[tile], picture.tiles[tile]);
@@ -91,6 +113,9 @@ void SharedFold::add(const SharedFrame& surface, std::size_t index, SharedFrame&
 }
 
 void SharedFold::finish_surfaces(SharedFrame& picture) const {
+    for (std::size_t k = 0; k < picture.layers.size(); ++k) {
+        picture.layers[k].blend(picture.tiles[k]);
+    }
     std::ranges::for_each(picture.tiles, [](Frame& tile) { elvis::finish_surfaces(tile); });
 }
 

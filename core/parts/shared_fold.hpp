@@ -5,8 +5,9 @@
 #pragma once
 
 #include <core/base/team.hpp>
-#include <core/parts/fold.hpp>
+#include <core/parts/fold_layers.hpp>
 #include <core/parts/part_picture.hpp>
+#include <core/parts/tile_parcels.hpp>
 #include <core/parts/tile_shares.hpp>
 
 #include <cstdint>
@@ -19,6 +20,8 @@ namespace elvis {
 struct SharedFrame {
     /** Pixels of the process' tiles, in their order. */
     std::vector<Frame> tiles;
+    /** Of the same tiles, if a surface can be seen through. */
+    std::vector<LayerStack> layers{};
     /** All else; on the team's first process. */
     Frame facts;
 };
@@ -45,6 +48,11 @@ public:
     SharedFrame empty() const;
     /** `alone`: the request with this surface alone. */
     SharedFrame surface(const FrameRequest& alone, const DrawParts& draw);
+    /**
+     * Adds the surface of this index, that can be seen through, of which `draw` gives all layers. All that cannot are added
+     * before.
+     */
+    void add_layers(const FrameRequest& alone, const DrawParts& draw, std::size_t index, SharedFrame& picture);
     /** Adds the surface of this index. */
     void add(const SharedFrame& surface, std::size_t index, SharedFrame& picture) const;
     /** When all are added. */
@@ -61,6 +69,8 @@ public:
     const FoldWork& work() const { return m_work; }
 
 private:
+    ReceivedParcels<PartPixel> exchanged(const DrawParts& draw, std::uint32_t reach, std::vector<std::byte>& facts);
+
     const FrameRequest& m_request;
     Precision m_precision;
     double m_diagonal;

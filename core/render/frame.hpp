@@ -72,6 +72,8 @@ struct FrameRequest {
     std::shared_ptr<const std::vector<double>> shades;
     /** Of a part of a volume, with hidden_from: Frame::runs are given in place of colours. */
     bool gives_runs = false;
+    /** Of one surface that can be seen through: Frame::layers are given. */
+    bool gives_layers = false;
     /** Surfaces show their colours as they are if absent. */
     std::optional<Lighting> lighting;
     /** Frame's vectors other than color stay empty if false: to read them takes as long as to draw a simple picture. */
@@ -188,6 +190,11 @@ struct Frame {
     std::vector<LightRun> runs;
     /** What each channel of all light of a ray is off besides. */
     double color_error = 0;
+    /**
+     * If FrameRequest::gives_layers: the surface where rays meet it for the first time, the second time and so on, each with
+     * all vectors above. Of colours the last number is the opacity, 0 where nothing is seen of it.
+     */
+    std::vector<Frame> layers;
     FrameCounts counts;
     /** Of each surface that was asked for, and of such as the renderer adds. */
     std::vector<SpecialValues> special_values;

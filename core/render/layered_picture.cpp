@@ -1,4 +1,5 @@
 #include <core/render/layered_picture.hpp>
+#include <core/render/picture/frame_read.hpp>
 #include <core/vulkan/real_array.hpp>
 
 namespace elvis {
@@ -90,6 +91,9 @@ void LayeredPicture::draw(SurfaceDrawing& drawing, std::size_t index, std::uint3
                           drawing.offset(), common_flags, is_lit(surface) ? &*m_request->lighting : nullptr,
                           surface.lic ? &shades() : nullptr);
         wanted = merge(drawing, index);
+        if (m_request->gives_layers) {
+            m_frame->layers.push_back(read_layer(drawing));
+        }
         // A plane is met once, and what edges hide of others is nothing.
         if (traits.plane != nullptr || traits.wires != nullptr) {
             wanted = {};
@@ -163,6 +167,18 @@ MergePass::Wanted LayeredPicture::merge(const SurfaceDrawing& drawing, std::size
     return m_is_alone ? MergePass::Wanted{}
                       : m_merge_pass.merge(*m_layer, static_cast<std::uint32_t>(index) + 1, drawing.traits().plane == nullptr,
                                            drawing.surface().is_see_through());
+}
+
+Frame LayeredPicture::read_layer(const SurfaceDrawing& drawing) {
+    m_flags_pass.settle(*m_layer);
+    LayerRead read(*m_layer, m_precision, true);
+    const std::vector<Buffer::Read> reads = read.reads();
+    Buffer::read_together(reads);
+    Frame frame;
+    frame.width = m_layer->width;
+    frame.height = m_layer->height;
+    read.fill({surface_facts(drawing)}, frame);
+    return frame;
 }
 
 ViewStart LayeredPicture::start_of_view() const {

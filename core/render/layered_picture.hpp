@@ -53,6 +53,8 @@ private:
     /** By what colours of a surface with line integral convolution are multiplied. */
     const Buffer& shades() const;
     MergePass::Wanted merge(const SurfaceDrawing& drawing, std::size_t index);
+    /** What is in the layer, with flags as callers know them. */
+    Frame read_layer(const SurfaceDrawing& drawing);
     ViewStart start_of_view() const;
     bool is_lit(const Surface& surface) const { return m_request->lighting.has_value() && surface.is_lit; }
 

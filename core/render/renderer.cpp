@@ -143,10 +143,7 @@ std::vector<SurfaceFacts> Renderer::Impl::draw_surfaces(const FrameRequest& requ
         const DeviceTimer timer(device, false);
         times.compile_milliseconds += milliseconds_since(start);
 
-        facts[index].offset = drawing.offset();
-        if (drawing.traits().plane != nullptr) {
-            facts[index].normal = drawing.rays().normal;
-        }
+        facts[index] = surface_facts(drawing);
         picture.draw(drawing, index, flags_of_range(surface, request.time_step, drawing.offset()));
         frame.render_milliseconds += timer.wall_milliseconds();
         frame.device_milliseconds += timer.milliseconds();

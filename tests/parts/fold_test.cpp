@@ -1,5 +1,5 @@
 // What is shown of pixels that several parts see.
-#include <core/parts/fold.hpp>
+#include <core/parts/fold_layers.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -43,6 +43,54 @@ TEST_CASE("The nearest of what parts own is shown, and where they do not agree i
     CHECK(frame.flags ==
           std::vector<std::uint32_t>{0, pixel_flag::undecided, pixel_flag::undecided, 0, pixel_flag::isosurface_undecided});
     CHECK(frame.depth[1] == 1);
+}
+
+TEST_CASE("Layers are all that parts own, each crossing once") {
+    std::vector<PartPixels> parts(2);
+    parts[1].part = 1;
+    const double near = 1 + 1e-6;
+    // Both see both, and own one each. Both own what is one crossing, of elements that share a face. None owns what both see.
+    parts[0].pixels = {seen(0, 1, 2, own), seen(0, 5, 3, around), seen(1, 1, 1, own), seen(2, 6, 1, around)};
+    parts[1].pixels = {seen(0, 1, 2, around), seen(0, 5, 3, own), seen(1, 5, near, own), seen(2, 1, near, around)};
+    // Two crossings as near as that, of which the first part sees both.
+    parts[0].pixels.push_back(seen(3, 1, 1, own));
+    parts[0].pixels.push_back(seen(3, 5, near, around));
+    parts[1].pixels.push_back(seen(3, 5, near, own));
+    parts[1].pixels.push_back(seen(4, -1, 0, around, pixel_flag::isosurface_undecided));
+    const FoldedLayers folded = folded_layers(5, parts, 1);
+    std::vector<std::array<std::int64_t, 3>> found;
+    for (const PartPixel& crossing : folded.crossings) {
+        found.push_back({crossing.pixel, crossing.element, crossing.flags});
+    }
+    CHECK(found ==
+          std::vector<std::array<std::int64_t, 3>>{
+              {0, 1, 0}, {0, 5, 0}, {1, 1, pixel_flag::undecided}, {2, 6, pixel_flag::undecided}, {3, 1, 0}, {3, 5, 0}});
+    CHECK(folded.doubts == std::vector<std::uint32_t>{0, 0, 0, 0, pixel_flag::isosurface_undecided});
+}
+
+TEST_CASE("Layers are mixed from the farthest to the nearest, in front of what is opaque") {
+    FrameRequest request;
+    request.background = {0, 0, 1, 1};
+    Frame picture = empty_block(request, {0, 0, 2, 1}, Precision::float64);
+    picture.depth[1] = 2.5;
+    picture.element[1] = 9;
+    LayerStack stack(picture);
+    FoldedLayers layers;
+    layers.doubts.resize(2);
+    for (const std::uint32_t pixel : {0u, 1u}) {
+        layers.crossings.push_back(seen(pixel, 1, 2, own));
+        layers.crossings.back().color = {1, 0, 0, 0.5};
+        layers.crossings.push_back(seen(pixel, 2, 3, own, pixel_flag::undecided));
+        layers.crossings.back().color = {0, 1, 0, 0.5};
+    }
+    stack.add(layers, picture);
+    stack.blend(picture);
+    finish_surfaces(picture);
+    CHECK(picture.color == std::vector<double>{0.5, 0.25, 0.25, 1, 0.5, 0, 0.5, 1});
+    CHECK(picture.element == std::vector<std::int64_t>{1, 1});
+    CHECK(picture.depth == std::vector<double>{2, 2});
+    // What is seen through the nearest stays in doubt.
+    CHECK((picture.flags[0] & pixel_flag::undecided) != 0);
 }
 
 namespace {

@@ -79,13 +79,16 @@ TEST_CASE("One to four processes draw the bytes that one program draws in the sa
     }
 }
 
-TEST_CASE("Light, wide lines and streaks are the same by any number of processes, which share what is put together") {
+TEST_CASE("Light, wide lines, streaks and layers are the same by any number of processes, which share what is put together") {
     const MpiFolder folder;
     folder.write("lines.json", R"~({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [96, 72], "samples": 2},
         "surfaces": [{"type": "plane", "plane": [1, 0.2, 0, 0.1]}], "contours": {"count": 5, "width": 3}, "mesh_lines": {},
         "lic": {"length": 6, "field": "y*grad(x) - x*grad(y)"}, "lighting": "default"})~");
+    folder.write("layers.json", R"~({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [96, 72]},
+        "surfaces": [{"type": "plane", "plane": [1, 0.2, 0, 0.1]}, {"type": "isosurface", "values": [0.2, 0.5], "opacity": 0.4},
+                     {"type": "boundary", "opacity": 0.3}]})~");
     for (const auto& [scene, counts] :
-         {std::pair<std::string, std::vector<std::string>>{"volume", {"2", "4"}}, {"lines", {"3"}}}) {
+         {std::pair<std::string, std::vector<std::string>>{"volume", {"2", "4"}}, {"layers", {"2"}}, {"lines", {"3"}}}) {
         REQUIRE(folder.run("render " + scene + ".json --parts 3 -o one.png --buffers one.h5").status == 0);
         for (const std::string& n : counts) {
             INFO(scene << " by " << n << " processes");

@@ -226,6 +226,27 @@ TEST_CASE("Thresholds in parts are those of the whole") {
             4);
 }
 
+TEST_CASE("Surfaces that can be seen through are in parts those of the whole") {
+    const Picture pictures[] = {
+        {"isosurfaces",
+         R"("surfaces": [{"type": "isosurface", "values": [-0.3, 0.3], "opacity": 0.4}], "lighting": "default")"},
+        {"boundary before a plane", R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05]},
+                                                  {"type": "boundary", "opacity": 0.3}])"},
+        {"all, clipped", R"("surfaces": [{"type": "plane", "plane": [1, 0, 0, 0.1], "opacity": 0.5},
+                                        {"type": "boundary", "clip": [[-1, 0, 0, -0.1]]},
+                                        {"type": "isosurface", "values": [0.3], "opacity": 0.7, "clip": [[0, 1, 0, 0.1]]},
+                                        {"type": "boundary", "opacity": 0.2}])"},
+    };
+    Stage hexahedra(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    Stage mixed(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
+                    "field": "waves"})");
+    for (const Picture& picture : pictures) {
+        compare(hexahedra, picture, 2);
+        compare(hexahedra, picture, 5);
+        compare(mixed, picture, 3);
+    }
+}
+
 TEST_CASE("Arrows, streamlines and pathlines in parts are those of the whole") {
     Stage stage(
         R"({"generator": 1, "mesh": "box", "elements": [4, 3, 3], "order": 3, "fields": ["taylor-green"], "time_steps": 3})");

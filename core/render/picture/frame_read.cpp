@@ -47,6 +47,14 @@ void fill_buffers(std::span<const Sample<Real>> samples, std::span<const Mark> m
 
 } // namespace
 
+SurfaceFacts surface_facts(const SurfaceDrawing& drawing) {
+    SurfaceFacts facts{drawing.offset(), {}};
+    if (drawing.traits().plane != nullptr) {
+        facts.normal = drawing.rays().normal;
+    }
+    return facts;
+}
+
 Frame background_frame(const FrameRequest& request) {
     Frame frame;
     frame.width = request.width;

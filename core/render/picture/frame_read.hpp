@@ -6,6 +6,7 @@
 
 #include <core/render/picture/layer.hpp>
 #include <core/render/renderer.hpp>
+#include <core/render/surface_drawing.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -19,6 +20,8 @@ struct SurfaceFacts {
     /** Of a plane. */
     std::optional<Vector3> normal;
 };
+
+SurfaceFacts surface_facts(const SurfaceDrawing& drawing);
 
 /** Colours, and with `with_buffers` values, depths, normals, elements and flags, on their way from a layer into a frame. */
 class LayerRead {

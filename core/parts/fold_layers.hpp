@@ -1,0 +1,49 @@
+/**
+ * @file fold_layers.hpp
+ * Surfaces that can be seen through, from what parts show of them.
+ */
+#pragma once
+
+#include <core/parts/fold.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace elvis {
+
+/** Where the rays of a block meet one such surface. */
+struct FoldedLayers {
+    /** By pixel, the nearest first. */
+    std::vector<PartPixel> crossings;
+    /** Flags of each pixel besides. */
+    std::vector<std::uint32_t> doubts;
+};
+
+/**
+ * Of what parts show, the nearest first in each pixel, all that they own. Where two parts each own what may be one crossing, or
+ * where none owns what others see, rounding decides: it is there once, and flagged as undecided (256). `diagonal`: of the whole
+ * volume's bounds.
+ */
+FoldedLayers folded_layers(std::size_t n_pixels, std::span<const PartPixels> parts, double diagonal);
+
+/** Such surfaces of a block, until all are there. */
+class LayerStack {
+public:
+    /** Over these opaque surfaces: all there are. */
+    explicit LayerStack(const Frame& opaque);
+
+    /** Values, depths and flags go into the picture at once. */
+    void add(const FoldedLayers& surface, Frame& picture);
+    /** Colours do when all surfaces are added, as shaders/picture/blend.comp mixes them. */
+    void blend(Frame& picture) const;
+
+private:
+    /** Infinite where there is none. */
+    std::vector<double> m_opaque_depths;
+    /** In the order of surfaces. */
+    std::vector<PartPixel> m_crossings;
+};
+
+} // namespace elvis
