@@ -98,10 +98,6 @@ void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
         if (wires != nullptr && wires->is_undeformed) {
             refuse(scene, "edges without the warp");
         }
-        if (std::holds_alternative<ElementFaces>(surface.geometry) ||
-            (wires != nullptr && std::holds_alternative<ElementFaces>(wires->faces))) {
-            refuse(scene, "the faces of chosen elements");
-        }
         // Both look at what is cut away beside a pixel, of which no part knows all.
         if (surface.lic && surface.is_see_through()) {
             refuse(scene, "line integral convolution with a threshold or with planes that cut the surface away");
@@ -112,6 +108,24 @@ void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
                    "surface away");
         }
     }
+}
+
+/** Of a surface that shows faces of chosen elements, or their edges; null of others. */
+ElementSelection* selection_of(Surface& surface) {
+    ElementFaces* faces = std::get_if<ElementFaces>(&surface.geometry);
+    if (WireFrame* const wires = std::get_if<WireFrame>(&surface.geometry)) {
+        faces = std::get_if<ElementFaces>(&wires->faces);
+    }
+    return faces != nullptr ? &faces->selection : nullptr;
+}
+
+/** Of one surface: as the part has to choose its faces. */
+FrameRequest for_part(const FrameRequest& alone, const DrawnPart& part) {
+    FrameRequest request = alone;
+    if (ElementSelection* const selection = selection_of(request.surfaces[0])) {
+        selection->own = part.own.all();
+    }
+    return request;
 }
 
 /** As in pictures of the whole: of two surfaces at the same depth the first one is seen. What can be seen through comes last.
@@ -158,6 +172,7 @@ struct VolumeInParts::Impl {
     void need_memory_for(const FrameRequest& request, const Renderer& renderer, const std::string& what) const;
     DrawParts drawing_light(const FrameRequest& request, std::vector<double> depths);
     std::vector<double> shades(const FrameRequest& alone, SharedFold& fold);
+    void need_faces(const ElementSelection& selection) const;
     SharedFrame draw_surfaces(const FrameRequest& request, SharedFold& fold);
     Frame draw(const FrameRequest& request, bool with_buffers);
     void take_means_of_finer(const FrameRequest& request, std::uint32_t n, std::uint32_t most_pixels, Frame& frame);
@@ -220,7 +235,7 @@ DrawParts VolumeInParts::Impl::drawing(const FrameRequest& request) {
     return [this, &request](const std::function<void(const PartPicture&)>& take) {
         for (const DrawnPart& part : parts) {
             std::array<Renderer*, 1> alone{&part.elements->renderer()};
-            Frame frame = render_in_bands(alone, request, control);
+            Frame frame = render_in_bands(alone, for_part(request, part), control);
             take(part_picture(part.part, std::move(frame), [&](std::int64_t number) { return part.own.hold(number); }));
         }
     };
@@ -242,7 +257,7 @@ DrawParts VolumeInParts::Impl::drawing_layers(const FrameRequest& alone) {
         for (const DrawnPart& part : parts) {
             Renderer& renderer = part.elements->renderer();
             need_memory_for(request, renderer, "a surface that can be seen through");
-            take(part_layers(part.part, renderer.render(request, control),
+            take(part_layers(part.part, renderer.render(for_part(request, part), control),
                              [&](std::int64_t number) { return part.own.hold(number); }));
         }
     };
@@ -280,6 +295,20 @@ std::vector<double> VolumeInParts::Impl::shades(const FrameRequest& alone, Share
                                          : std::vector<double>{});
 }
 
+/** As in the whole, an Error if there is nothing to draw. */
+void VolumeInParts::Impl::need_faces(const ElementSelection& selection) const {
+    double none = 1;
+    for (const DrawnPart& part : parts) {
+        ElementSelection of_part = selection;
+        of_part.own = part.own.all();
+        none = faces_of_elements(part.elements->volume(), of_part, control).empty() ? none : 0;
+    }
+    team.minimum(std::span(&none, 1));
+    if (none > 0) {
+        throw Error(whole.path(), "has no such faces of elements for which all conditions hold");
+    }
+}
+
 SharedFrame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request, SharedFold& fold) {
     SharedFrame picture = fold.empty();
     // One by one: a part cannot tell which lines of a surface another surface hides.
@@ -287,6 +316,9 @@ SharedFrame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request, Shar
         FrameRequest alone = request;
         alone.surfaces = {request.surfaces[index]};
         alone.volume.reset();
+        if (const ElementSelection* const selection = selection_of(alone.surfaces[0])) {
+            need_faces(*selection);
+        }
         if (alone.surfaces[0].lic) {
             alone.shades = std::make_shared<const std::vector<double>>(shades(alone, fold));
         }

@@ -30,6 +30,7 @@ public:
         : m_volume(serve_native(std::move(source), name, control, &m_served)),
           m_renderer(device, m_volume, precision, control, bounds) {}
 
+    const RuntimeVolume& volume() const { return m_volume; }
     Renderer& renderer() { return m_renderer; }
     const Renderer& renderer() const { return m_renderer; }
 
@@ -51,16 +52,20 @@ private:
 class OwnNumbers {
 public:
     OwnNumbers(const RuntimeVolume& whole, std::span<const Span> runs) {
+        std::vector<std::int64_t> numbers;
         for (const Span& run : runs) {
-            m_numbers.resize(m_numbers.size() + run.size());
-            whole.element_numbers(run.first, run.size(), std::span(m_numbers).last(run.size()));
+            numbers.resize(numbers.size() + run.size());
+            whole.element_numbers(run.first, run.size(), std::span(numbers).last(run.size()));
         }
-        std::ranges::sort(m_numbers);
+        std::ranges::sort(numbers);
+        m_numbers = std::make_shared<const std::vector<std::int64_t>>(std::move(numbers));
     }
-    bool hold(std::int64_t number) const { return std::ranges::binary_search(m_numbers, number); }
+    bool hold(std::int64_t number) const { return std::ranges::binary_search(*m_numbers, number); }
+    /** Ascending. */
+    const std::shared_ptr<const std::vector<std::int64_t>>& all() const { return m_numbers; }
 
 private:
-    std::vector<std::int64_t> m_numbers;
+    std::shared_ptr<const std::vector<std::int64_t>> m_numbers;
 };
 
 /** A part that holds elements, drawn with those around them. */

@@ -118,6 +118,7 @@ TEST_CASE("What cannot be drawn in parts is refused") {
     CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5}], "volume_rendering": {"density": [[0, 0], [1, 1]]})"));
     CHECK(refused(R"("threshold": "sphere > 0.2", "lic": {"field": "velocity"})"));
     CHECK(refused(R"("surfaces": [{"type": "boundary", "clip": [[1, 0, 0, 0]], "lic": {"field": "velocity"}}])"));
-    CHECK(refused(R"("surfaces": [{"type": "elements"}])"));
-    CHECK(refused(R"("surfaces": [{"type": "wireframe", "shapes": ["hexahedron"]}])"));
+    // Not a part alone, but the whole has none.
+    const std::string keys = R"("surfaces": [{"type": "elements", "shapes": ["prism"]}])";
+    CHECK(error_of([&] { stage.in_parts(stage.scene(keys), 2); }).find("no such faces of elements") != std::string::npos);
 }

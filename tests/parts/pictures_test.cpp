@@ -247,6 +247,21 @@ TEST_CASE("Surfaces that can be seen through are in parts those of the whole") {
     }
 }
 
+TEST_CASE("Faces of chosen elements, and their edges, are in parts those of the whole") {
+    const Picture pictures[] = {
+        {"all faces", R"("surfaces": [{"type": "elements", "ids": [[0, 9], 30, [41, 60]]}])"},
+        {"outer faces by value", R"("surfaces": [{"type": "elements", "value_range": [0.4, 2], "faces": "outer"}])"},
+        {"inner faces", R"("surfaces": [{"type": "elements", "faces": "inner", "clip": [[0, 0, -1, 0.1]]}])"},
+        {"edges", R"("surfaces": [{"type": "wireframe", "ids": [[5, 25], 40], "faces": "outer"}])"},
+        {"seen through", R"("surfaces": [{"type": "elements", "ids": [[10, 50]], "faces": "outer", "opacity": 0.5}])"},
+    };
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    for (const Picture& picture : pictures) {
+        compare(stage, picture, 2);
+        compare(stage, picture, 5);
+    }
+}
+
 TEST_CASE("Arrows, streamlines and pathlines in parts are those of the whole") {
     Stage stage(
         R"({"generator": 1, "mesh": "box", "elements": [4, 3, 3], "order": 3, "fields": ["taylor-green"], "time_steps": 3})");

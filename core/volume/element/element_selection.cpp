@@ -105,6 +105,26 @@ void keep_negative(const RuntimeVolume& volume, std::vector<bool>& chosen, const
     }
 }
 
+/** Of a part: faces behind which an element of another part may be chosen. */
+class OpenFaces {
+public:
+    OpenFaces(const RuntimeVolume& volume, const ElementSelection& selection) : m_volume(volume), m_selection(selection) {}
+
+    bool hold(const elvis_face& face) const {
+        if (!m_selection.own || m_selection.faces == ElementSelection::Faces::all ||
+            face.neighbour != ELVIS_NEIGHBOUR_UNKNOWN) {
+            return false;
+        }
+        std::int64_t number = 0;
+        m_volume.element_numbers(static_cast<std::uint64_t>(face.element), 1, std::span(&number, 1));
+        return !std::ranges::binary_search(*m_selection.own, number);
+    }
+
+private:
+    const RuntimeVolume& m_volume;
+    const ElementSelection& m_selection;
+};
+
 bool is_before(const ElementFace& a, const ElementFace& b) {
     return a.element != b.element ? a.element < b.element : a.local_face < b.local_face;
 }
@@ -132,7 +152,7 @@ std::vector<bool> chosen_elements(const RuntimeVolume& volume, const ElementSele
 std::vector<ElementFace> faces_of_elements(const RuntimeVolume& volume, const ElementSelection& selection,
                                            const TaskControl* control) {
     const std::vector<bool> chosen = chosen_elements(volume, selection, control);
-    if (std::ranges::find(chosen, true) == chosen.end()) {
+    if (!selection.own && std::ranges::find(chosen, true) == chosen.end()) {
         throw Error(volume.path(), "has no element for which all conditions hold");
     }
     std::vector<ElementFace> result;
@@ -147,6 +167,7 @@ std::vector<ElementFace> faces_of_elements(const RuntimeVolume& volume, const El
     if (volume.n_faces() == 0) {
         throw Error(volume.path(), "does not tell its faces, so that none of them can be drawn");
     }
+    const OpenFaces open(volume, selection);
     std::vector<elvis_face> faces;
     for_blocks(volume.n_faces(), control, [&](std::uint64_t first, std::uint64_t count) {
         faces.resize(count);
@@ -155,8 +176,9 @@ std::vector<ElementFace> faces_of_elements(const RuntimeVolume& volume, const El
             const bool is_own = chosen[static_cast<std::size_t>(face.element)];
             const bool is_other = face.neighbour >= 0 && chosen[static_cast<std::size_t>(face.neighbour)];
             const bool is_inner = is_own && is_other;
-            const bool is_wanted = selection.faces == ElementSelection::Faces::all ||
-                                   (selection.faces == ElementSelection::Faces::inner) == is_inner;
+            const bool is_wanted = (selection.faces == ElementSelection::Faces::all ||
+                                    (selection.faces == ElementSelection::Faces::inner) == is_inner) &&
+                                   !open.hold(face);
             // Both sides have the same points; where the field does not jump, one is enough.
             const bool are_both = is_inner && selection.is_two_sided;
             if (is_own && is_wanted) {
@@ -170,7 +192,7 @@ std::vector<ElementFace> faces_of_elements(const RuntimeVolume& volume, const El
         }
     });
     std::ranges::sort(result, is_before);
-    if (result.empty()) {
+    if (!selection.own && result.empty()) {
         throw Error(volume.path(), "has no such faces of the chosen elements");
     }
     return result;

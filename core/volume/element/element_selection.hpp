@@ -7,6 +7,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,11 @@ struct ElementSelection {
     std::uint32_t time_step = 0;
     /** Values on the two sides of a face may differ: then both sides are drawn, and the viewer's one is seen. */
     bool is_two_sided = false;
+    /**
+     * Of a part of a volume: numbers of its own elements, ascending. Faces of those around them of which the other side is not
+     * in the part are not drawn, since that side may be chosen; and no element need be.
+     */
+    std::shared_ptr<const std::vector<std::int64_t>> own{};
 
     auto operator<=>(const ElementSelection&) const = default;
 };
