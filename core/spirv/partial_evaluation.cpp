@@ -13,9 +13,11 @@ namespace elvis {
 
 namespace {
 
-// A loop is written out within the limits of Mesa's gallivm: of rounds, and of instructions without loads and stores.
+// A loop is written out within the limits of Mesa's gallivm: of rounds, and of instructions without loads and stores; with
+// these, so that nested loops end that do nothing else.
 constexpr std::size_t most_rounds = 32;
 constexpr std::size_t most_instructions = 832;
+constexpr std::size_t most_with_loads = 16 * most_instructions;
 
 /** That a kernel is left as it is. */
 class NotEvaluated {};
@@ -283,7 +285,7 @@ private:
 
     /** Round by round, if it is known which is the last. */
     End write_out(SpirvId header, SpirvId after, SpirvId next) {
-        const std::size_t instructions = m_instructions;
+        const std::size_t instructions = m_instructions, size = m_writer.size();
         m_loop_labels.insert({after, next});
         End end = End::reached;
         for (std::size_t rounds = 0; end == End::reached; ++rounds) {
@@ -294,7 +296,8 @@ private:
             if (end == End::reached && m_at == after) {
                 break;
             }
-            const bool is_long = rounds == most_rounds || m_instructions - instructions > most_instructions;
+            const bool is_long = rounds == most_rounds || m_instructions - instructions > most_instructions ||
+                                 m_writer.size() - size > most_with_loads;
             if (end == End::reached && is_long) {
                 end = End::failed;
             }

@@ -17,6 +17,8 @@ public:
     /** Of a type that is a pointer. */
     SpirvId write_variable(SpirvId type);
 
+    /** In instructions. */
+    std::size_t size() const { return m_code.size(); }
     /** Of the block that is being written. */
     SpirvId label() const { return m_label; }
 
