@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -40,7 +41,7 @@ bool shows_nothing(const Frame& tile, const Frame& empty) {
 
 void mark_hits(Frame& tile) {
     for (std::size_t pixel = 0; pixel < tile.flags.size(); ++pixel) {
-        tile.flags[pixel] |= tile.element[pixel] >= 0 ? hit_bit : 0;
+        tile.flags[pixel] |= std::isnan(tile.depth[pixel]) ? 0 : hit_bit;
     }
 }
 

@@ -91,8 +91,8 @@ void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
         if (surface.opacity < 1 && request.volume) {
             refuse(scene, "a surface that can be seen through together with light of the volume");
         }
-        if (surface.outside) {
-            refuse(scene, "a surface with a colour where it lies in no element");
+        if (surface.outside && surface.opacity < 1) {
+            refuse(scene, "a surface that can be seen through with a colour where it lies in no element");
         }
         const WireFrame* const wires = traits_of(surface.geometry).wires;
         if (wires != nullptr && wires->is_undeformed) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -31,6 +32,9 @@ struct Shown {
     const PartPixel* own = nullptr;
     /** Of elements around the parts. */
     const PartPixel* other = nullptr;
+    /** Of parts that know no element there, and what they doubt. */
+    const PartPixel* outside = nullptr;
+    std::uint32_t outside_doubt = 0;
     std::uint32_t part = 0;
     std::uint32_t doubt = 0;
     /** Of parts that show nothing there, which may have lines that end in the pixel. */
@@ -38,6 +42,12 @@ struct Shown {
 };
 
 bool is_nearer(const PartPixel& one, const PartPixel* than) { return than == nullptr || one.depth < than->depth; }
+
+/** All have it at one depth; lines that end in the pixel are seen by parts whose elements are beside it. */
+bool is_better_outside(const PartPixel& one, const PartPixel* than) {
+    constexpr std::uint32_t lines = pixel_flag::contour | pixel_flag::mesh_line;
+    return than == nullptr || std::popcount(one.flags & lines) > std::popcount(than->flags & lines);
+}
 
 std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPixels> parts) {
     std::vector<Shown> shown(n_pixels);
@@ -51,19 +61,26 @@ std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPixels> par
                 here.part = one.part;
             } else if (pixel.is_own == 0 && pixel.is_hit() && is_nearer(pixel, here.other)) {
                 here.other = &pixel;
+            } else if (pixel.is_outside()) {
+                here.outside = is_better_outside(pixel, here.outside) ? &pixel : here.outside;
+                here.outside_doubt |= pixel.flags;
             }
         }
     }
     return shown;
 }
 
-/** Among parts that do not agree, the nearest; with doubt. */
+/** Among parts that do not agree, the nearest; with doubt. What lies in an element of one part is outside of others. */
 void settle(std::vector<Shown>& shown, double tolerance) {
     for (Shown& here : shown) {
         const double own_depth = here.own != nullptr ? here.own->depth : behind_everything;
         if (here.other != nullptr && here.other->depth < own_depth - tolerance) {
             here.own = here.other;
             here.doubt |= pixel_flag::undecided;
+        }
+        if (here.own == nullptr && here.outside != nullptr) {
+            here.own = here.outside;
+            here.doubt |= here.outside_doubt;
         }
     }
 }
@@ -147,7 +164,9 @@ public:
         for (std::size_t index = 0; m_flags != 0 && index < parts.size(); ++index) {
             const std::vector<std::int64_t> seen = elements_seen(shown.size(), parts[index]);
             for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
-                if (shown[pixel].own != nullptr && shown[pixel].part == parts[index].part && is_open(pixel, seen)) {
+                const PartPixel* const from = shown[pixel].own;
+                const bool is_of_part = from != nullptr && from->is_hit() && shown[pixel].part == parts[index].part;
+                if (is_of_part && is_open(pixel, seen)) {
                     doubt(pixel);
                 }
             }
@@ -261,7 +280,8 @@ void crop(Frame& frame, const PixelBlock& block, const PixelBlock& kept) {
 } // namespace
 
 std::uint32_t doubts_of(const PartPixel& pixel) {
-    return pixel.flags & (pixel.is_hit() && pixel.is_own == 0 ? misses : own_doubts);
+    const bool others_know_better = pixel.is_outside() || (pixel.is_hit() && pixel.is_own == 0);
+    return pixel.flags & (others_know_better ? misses : own_doubts);
 }
 
 std::uint32_t reach_of_fold(const FrameRequest& request) {
@@ -331,7 +351,7 @@ std::uint32_t merged_flags(std::uint32_t picture, std::uint32_t surface, bool is
 
 void add_surface(const Frame& surface, Frame& picture) {
     for (std::size_t pixel = 0; pixel < picture.flags.size(); ++pixel) {
-        const bool is_drawn = surface.element[pixel] >= 0, is_empty = picture.element[pixel] < 0;
+        const bool is_drawn = !std::isnan(surface.depth[pixel]), is_empty = std::isnan(picture.depth[pixel]);
         const bool is_nearest = is_drawn && (is_empty || surface.depth[pixel] < picture.depth[pixel]);
         picture.flags[pixel] = merged_flags(picture.flags[pixel], surface.flags[pixel], is_drawn, is_nearest);
         if (is_nearest) {

@@ -116,7 +116,7 @@ void LayerStack::add(const FoldedLayers& surface, Frame& picture) {
     }
     for (const PartPixel& crossing : surface.crossings) {
         const std::size_t pixel = crossing.pixel;
-        const bool is_nearest = picture.element[pixel] < 0 || crossing.depth < picture.depth[pixel];
+        const bool is_nearest = std::isnan(picture.depth[pixel]) || crossing.depth < picture.depth[pixel];
         picture.flags[pixel] = merged_flags(picture.flags[pixel], crossing.flags, true, is_nearest);
         if (is_nearest) {
             picture.element[pixel] = crossing.element;

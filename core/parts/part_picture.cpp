@@ -47,12 +47,13 @@ void add_pixels(const Frame& frame, const std::function<bool(std::int64_t)>& is_
         PartPixel found;
         found.pixel = static_cast<std::uint32_t>(pixel);
         found.flags = frame.flags[pixel];
-        found.element = frame.color[4 * pixel + 3] > 0 ? frame.element[pixel] : -1;
-        if (!found.is_hit() && found.flags == 0) {
+        const bool is_seen = frame.color[4 * pixel + 3] > 0;
+        found.element = is_seen ? frame.element[pixel] : -1;
+        found.depth = is_seen ? frame.depth[pixel] : found.depth;
+        if (!found.is_hit() && !found.is_outside() && found.flags == 0) {
             continue;
         }
         found.value = frame.value[pixel];
-        found.depth = frame.depth[pixel];
         std::memcpy(found.normal.data(), &frame.normal[3 * pixel], sizeof found.normal);
         std::memcpy(found.color.data(), &frame.color[4 * pixel], sizeof found.color);
         found.is_own = found.is_hit() && is_own(found.element) ? 1 : 0;

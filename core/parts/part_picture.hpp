@@ -7,9 +7,11 @@
 #include <core/render/frame.hpp>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,15 +21,18 @@ namespace elvis {
 struct PartPixel {
     std::uint32_t pixel = 0;
     std::uint32_t flags = 0;
-    /** The element's number; -1 where nothing is met. */
+    /** The element's number; -1 where nothing is met, or the surface lies in no element. */
     std::int64_t element = -1;
-    double value = 0, depth = 0;
+    /** Of the depth: NaN where nothing is met. */
+    double value = 0, depth = std::numeric_limits<double>::quiet_NaN();
     std::array<double, 3> normal{};
     std::array<double, 4> color{};
     /** Whether the element is the part's own, not one of its surroundings. */
     std::uint64_t is_own = 0;
 
     bool is_hit() const { return element >= 0; }
+    /** In no element that the part knows; the surface has a colour for that (Surface::outside). */
+    bool is_outside() const { return element < 0 && !std::isnan(depth); }
 };
 
 struct PartPicture {

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <span>
 #include <vector>
@@ -13,6 +14,7 @@ using namespace elvis;
 namespace {
 
 constexpr bool own = true, around = false;
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 PartPixel seen(std::uint32_t pixel, std::int64_t element, double depth, bool is_own, std::uint32_t flags = 0) {
     PartPixel result;
@@ -34,7 +36,7 @@ TEST_CASE("The nearest of what parts own is shown, and where they do not agree i
     std::vector<PartPixels> parts(2);
     parts[1].part = 1;
     parts[0].pixels = {seen(0, 1, 2, own), seen(1, 1, 2, own), seen(2, 7, 1, around), seen(3, 1, 1, own),
-                       seen(4, -1, 0, around, pixel_flag::isosurface_undecided)};
+                       seen(4, -1, nothing, around, pixel_flag::isosurface_undecided)};
     // In the fourth pixel both see one surface; their depths are rounded.
     parts[1].pixels = {seen(0, 5, 1, own), seen(1, 2, 1, around), seen(3, 1, 1 - 1e-7, around), seen(4, 6, 1, own)};
     const PixelBlock all{0, 0, 5, 1};
@@ -56,7 +58,7 @@ TEST_CASE("Layers are all that parts own, each crossing once") {
     parts[0].pixels.push_back(seen(3, 1, 1, own));
     parts[0].pixels.push_back(seen(3, 5, near, around));
     parts[1].pixels.push_back(seen(3, 5, near, own));
-    parts[1].pixels.push_back(seen(4, -1, 0, around, pixel_flag::isosurface_undecided));
+    parts[1].pixels.push_back(seen(4, -1, nothing, around, pixel_flag::isosurface_undecided));
     const FoldedLayers folded = folded_layers(5, parts, 1);
     std::vector<std::array<std::int64_t, 3>> found;
     for (const PartPixel& crossing : folded.crossings) {

@@ -9,6 +9,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
@@ -245,6 +246,25 @@ TEST_CASE("Surfaces that can be seen through are in parts those of the whole") {
         compare(hexahedra, picture, 5);
         compare(mixed, picture, 3);
     }
+}
+
+TEST_CASE("Where surfaces lie in no element they have in parts the colour that they have in the whole") {
+    const Picture pictures[] = {
+        {"plane with lines", R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05], "outside": [1, 0.9, 0.2],
+                                             "contours": {"count": 5}, "mesh_lines": {}}])"},
+        {"sphere before the boundary", R"("surfaces": [{"type": "sphere", "center": [1, 0, 0], "radius": 0.6,
+                                                      "outside": [0.2, 0.9, 0.9]}, {"type": "boundary"}], "lighting": "default")"},
+    };
+    Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
+    for (const Picture& picture : pictures) {
+        compare(stage, picture, 2);
+        compare(stage, picture, 5);
+    }
+    const Scene scene = stage.scene(pictures[0].keys);
+    const Frame whole = stage.as_whole(scene), parts = stage.in_parts(scene, 5);
+    CHECK(parts.counts.hit_pixels == whole.counts.hit_pixels);
+    const auto n_outside = std::ranges::count_if(whole.element, [](std::int64_t number) { return number < 0; });
+    CHECK(n_outside > 1000);
 }
 
 TEST_CASE("Faces of chosen elements, and their edges, are in parts those of the whole") {

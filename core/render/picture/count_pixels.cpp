@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -36,7 +37,8 @@ void count_pixels(Frame& frame) {
     Found found{};
     for (std::size_t pixel = 0; pixel < frame.flags.size(); ++pixel) {
         count_bits(frame.flags[pixel], found);
-        found.back() += frame.element[pixel] >= 0 ? 1 : 0;
+        // Surfaces that lie in no element have a depth.
+        found.back() += frame.element[pixel] >= 0 || !std::isnan(frame.depth[pixel]) ? 1 : 0;
     }
     FrameCounts& counts = frame.counts;
     for (std::uint64_t* const of_pixels :

@@ -14,7 +14,7 @@ namespace elvis {
 /** Adds flags to those of a pixel, and counts it by such as it did not have. */
 void add_flags(Frame& frame, std::size_t pixel, std::uint32_t flags);
 
-/** Sets what is counted of pixels, from the frame's flags and elements; what is counted of work stays. */
+/** Sets what is counted of pixels, from the frame's flags, elements and depths; what is counted of work stays. */
 void count_pixels(Frame& frame);
 
 } // namespace elvis
