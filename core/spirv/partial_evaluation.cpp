@@ -13,8 +13,8 @@ namespace elvis {
 
 namespace {
 
-// A loop is written out within the limits of Mesa's gallivm: of rounds, and of instructions without loads and stores; with
-// these, so that nested loops end that do nothing else.
+// A loop is written out within the limits of Mesa's gallivm: of rounds, and of scalar instructions without loads and stores of
+// the function's variables; with these, so that nested loops end that do nothing else. Nor is one that holds a loop that stays.
 constexpr std::size_t most_rounds = 32;
 constexpr std::size_t most_instructions = 832;
 constexpr std::size_t most_with_loads = 16 * most_instructions;
@@ -279,13 +279,14 @@ private:
         m_variables.known().go_back(moment);
         m_last = last;
         keep_loop(header, merge);
+        ++m_n_kept;
         m_next = merge.words[1];
         return End::reached;
     }
 
     /** Round by round, if it is known which is the last. */
     End write_out(SpirvId header, SpirvId after, SpirvId next) {
-        const std::size_t instructions = m_instructions, size = m_writer.size();
+        const std::size_t instructions = m_instructions, size = m_writer.size(), n_kept = m_n_kept;
         m_loop_labels.insert({after, next});
         End end = End::reached;
         for (std::size_t rounds = 0; end == End::reached; ++rounds) {
@@ -297,7 +298,7 @@ private:
                 break;
             }
             const bool is_long = rounds == most_rounds || m_instructions - instructions > most_instructions ||
-                                 m_writer.size() - size > most_with_loads;
+                                 m_writer.size() - size > most_with_loads || m_n_kept > n_kept;
             if (end == End::reached && is_long) {
                 end = End::failed;
             }
@@ -305,6 +306,7 @@ private:
         m_loop_labels.erase(after);
         m_loop_labels.erase(next);
         m_instructions = end == End::failed ? instructions : m_instructions;
+        m_n_kept = end == End::failed ? n_kept : m_n_kept;
         return end;
     }
 
@@ -388,6 +390,7 @@ private:
             break;
         case spv::OpLoad:
             m_new_ids[i.result] = m_variables.load(i, check_pointer(i.words[3]));
+            m_instructions += m_variables.is_local(i.words[3]) ? 0 : n_scalars(i.type);
             break;
         case spv::OpStore:
             m_variables.store(i, check_pointer(i.words[1]), new_id(i.words[2]));
@@ -452,9 +455,16 @@ private:
             m_new_ids[i.result] = m_writer.write_expression(made, i.result);
             if (i.op == spv::OpCompositeConstruct) {
                 m_values.note_composite(m_new_ids[i.result], made);
+            } else if (i.op != spv::OpVectorShuffle) {
+                m_instructions += n_scalars(i.type);
             }
-            ++m_instructions;
         }
+    }
+
+    /** Of a vector or matrix; 1 of all else. */
+    std::size_t n_scalars(SpirvId type) const {
+        const std::uint32_t n = m_values.component_count(type);
+        return n == 0 ? 1 : n * n_scalars(m_values.component_type(type, 0));
     }
 
     std::optional<std::uint32_t> vector_index(const SpirvInstruction& i) const {
@@ -495,8 +505,10 @@ private:
     std::set<SpirvId> m_joined;
     SpirvId m_last = 0, m_next = 0, m_at = 0, m_returned = 0;
 
-    /** Written so far, without loads, stores and what belongs to them. */
+    /** Scalar ones that are written so far, without loads and stores of the function's variables. */
     std::size_t m_instructions = 0;
+    /** Loops in what is written. */
+    std::size_t m_n_kept = 0;
 };
 
 } // namespace

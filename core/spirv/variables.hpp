@@ -20,6 +20,9 @@ public:
     /** Makes `chain` a pointer into what `base` points to. */
     void access(const SpirvInstruction& chain, SpirvId base, const std::vector<SpirvId>& indices);
 
+    /** Whether it points into a variable of a function. */
+    bool is_local(SpirvId pointer) const { return m_pointers.at(pointer).is_local; }
+
     SpirvId load(const SpirvInstruction& load, SpirvId pointer);
     void store(const SpirvInstruction& store, SpirvId pointer, SpirvId value);
     /** The pointer, in what is written. */

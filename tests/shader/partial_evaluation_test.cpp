@@ -150,7 +150,7 @@ TEST_CASE("Only loops of a known, small number of rounds are written out") {
     CHECK(count_loops("core_unknown_length(u)") == 1);
     CHECK(count_loops("core_ends_early(u)") == 1);
     CHECK(count_loops("core_too_long(u)") == 1);
-    // The outer one is, three times the one inside it, and of what that holds, too.
+    // Not the outer one, as the middle one stays; of the inner one it is not known where it begins.
     CHECK(count_loops("core_nested(u)") == 3);
     CHECK(count_loops("core_last_tested(u)") == 2);
     // Of 30^4 rounds that store alone few are written out.
