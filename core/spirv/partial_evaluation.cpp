@@ -467,8 +467,10 @@ private:
         return n == 0 ? 1 : n * n_scalars(m_values.component_type(type, 0));
     }
 
+    /** Of an element that is taken from a vector; not where that has none. */
     std::optional<std::uint32_t> vector_index(const SpirvInstruction& i) const {
-        return i.op == spv::OpVectorExtractDynamic ? m_values.number(i.words[4]) : std::nullopt;
+        const auto index = i.op == spv::OpVectorExtractDynamic ? m_values.number(i.words[4]) : std::nullopt;
+        return index && *index < m_values.component_count(m_values.type_of(i.words[3])) ? index : std::nullopt;
     }
 
     SpirvId new_id(SpirvId id) const {

@@ -105,6 +105,10 @@ SpirvId SpirvVariables::known_value(const Place& place, SpirvId type) {
         if (outer) {
             SpirvId value = *outer;
             for (std::size_t k = size; k < place.size(); ++k) {
+                // What may never be reached may lie outside.
+                if (place[k] >= m_values.component_count(m_values.type_of(value))) {
+                    return 0;
+                }
                 value = extract(value, place[k]);
             }
             m_known.set(place, value);

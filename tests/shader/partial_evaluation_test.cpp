@@ -171,6 +171,16 @@ TEST_CASE("Nothing is left of what is stored and not loaded") {
     CHECK(test::count_of(spirv, spv::OpName) == 0);
 }
 
+TEST_CASE("Indices outside of what they index, where control never comes, are no error") {
+    const auto spirv =
+        compiled("", "uint a[3] = uint[](1u, 2u, 3u);\nuvec3 v = uvec3(u);\nuvec2 w = uvec2(u, 5u);\n"
+                     "for (int i = 0; i < 3; ++i) {\n"
+                     "    if (u > 1000u + uint(i)) { result[u] += a[i - 1] + v[i + 1] + (w + uvec2(i))[i + 1]; }\n"
+                     "}\n");
+    CHECK(test::is_valid(spirv));
+    CHECK(test::count_of(spirv, spv::OpLoopMerge) == 0);
+}
+
 TEST_CASE("What must not be contracted keeps its mark, each time that it is written out") {
     const auto spirv = compiled("", "precise float x = uintBitsToFloat(u);\n"
                                     "for (int i = 0; i < 5; ++i) { x = x * x + 1.0; }\n"
