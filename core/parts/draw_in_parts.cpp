@@ -172,7 +172,7 @@ struct VolumeInParts::Impl {
     void need_memory_for(const FrameRequest& request, const Renderer& renderer, const std::string& what) const;
     DrawParts drawing_light(const FrameRequest& request, std::vector<double> depths);
     std::vector<double> shades(const FrameRequest& alone, SharedFold& fold);
-    void need_faces(const ElementSelection& selection) const;
+    void need_faces(FrameRequest request) const;
     SharedFrame draw_surfaces(const FrameRequest& request, SharedFold& fold);
     Frame draw(const FrameRequest& request, bool with_buffers);
     void take_means_of_finer(const FrameRequest& request, std::uint32_t n, std::uint32_t most_pixels, Frame& frame);
@@ -296,16 +296,21 @@ std::vector<double> VolumeInParts::Impl::shades(const FrameRequest& alone, Share
 }
 
 /** As in the whole, an Error if there is nothing to draw. */
-void VolumeInParts::Impl::need_faces(const ElementSelection& selection) const {
-    double none = 1;
-    for (const DrawnPart& part : parts) {
-        ElementSelection of_part = selection;
-        of_part.own = part.own.all();
-        none = faces_of_elements(part.elements->volume(), of_part, control).empty() ? none : 0;
-    }
-    team.minimum(std::span(&none, 1));
-    if (none > 0) {
-        throw Error(whole.path(), "has no such faces of elements for which all conditions hold");
+void VolumeInParts::Impl::need_faces(FrameRequest request) const {
+    for (Surface& surface : request.surfaces) {
+        ElementSelection* const selection = selection_of(surface);
+        if (selection == nullptr) {
+            continue;
+        }
+        double none = 1;
+        for (const DrawnPart& part : parts) {
+            selection->own = part.own.all();
+            none = faces_of_elements(part.elements->volume(), *selection, control).empty() ? none : 0;
+        }
+        team.minimum(std::span(&none, 1));
+        if (none > 0) {
+            throw Error(whole.path(), "has no such faces of elements for which all conditions hold");
+        }
     }
 }
 
@@ -316,9 +321,6 @@ SharedFrame VolumeInParts::Impl::draw_surfaces(const FrameRequest& request, Shar
         FrameRequest alone = request;
         alone.surfaces = {request.surfaces[index]};
         alone.volume.reset();
-        if (const ElementSelection* const selection = selection_of(alone.surfaces[0])) {
-            need_faces(*selection);
-        }
         if (alone.surfaces[0].lic) {
             alone.shades = std::make_shared<const std::vector<double>>(shades(alone, fold));
         }
@@ -423,6 +425,7 @@ PartsPicture VolumeInParts::draw(const Scene& asked, bool with_buffers, std::uin
     FrameRequest& request = picture.still.request;
     request = make_frame_request(scene, impl.whole, *impl.ranges);
     need_parts_can_draw(request, scene);
+    impl.need_faces(request);
     request.with_buffers = true;
     ask_about_isosurfaces(request, *impl.ranges);
     if (request.volume) {

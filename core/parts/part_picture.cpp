@@ -1,6 +1,5 @@
 #include <core/parts/part_picture.hpp>
 
-#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <type_traits>
@@ -77,8 +76,6 @@ PartPicture part_layers(std::uint32_t part, Frame frame, const std::function<boo
     for (const Frame& layer : std::exchange(frame.layers, {})) {
         add_pixels(layer, is_own, picture.pixels);
     }
-    std::ranges::stable_sort(picture.pixels, {},
-                             [](const PartPixel& one) { return std::pair(one.pixel, one.is_hit() ? one.depth : 0); });
     picture.take_facts(std::move(frame));
     return picture;
 }

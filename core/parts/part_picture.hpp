@@ -37,7 +37,7 @@ struct PartPixel {
 
 struct PartPicture {
     std::uint32_t part = 0;
-    /** Ascending. */
+    /** Ascending; of layers, each by itself. */
     std::vector<PartPixel> pixels;
     /** All of the part's frame that is not of pixels: counts, times, what is met, light of the volume. */
     Frame facts;
@@ -47,7 +47,7 @@ struct PartPicture {
 
 /** `is_own`: whether the element of that number is the part's. */
 PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own);
-/** Of Frame::layers: a pixel for each of them in which something is seen, the nearest first. */
+/** Of Frame::layers: pixels of one after the other. */
 PartPicture part_layers(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own);
 
 /** Facts to be sent, one part's after the other's; and back. Between processes of one program on machines of one kind. */
