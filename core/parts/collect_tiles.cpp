@@ -117,21 +117,21 @@ void drop_buffers(Frame& frame) {
 
 } // namespace
 
-std::vector<double> collected_depths(const TileShares& shares, const std::vector<Frame>& tiles, Team& team) {
+std::vector<double> collected_numbers(const TileShares& shares, std::span<const std::vector<double>> of_tiles, Team& team) {
     std::vector<std::byte> own;
-    for (const Frame& tile : tiles) {
-        put_numbers(tile.depth, own);
+    for (const std::vector<double>& tile : of_tiles) {
+        put_numbers(tile, own);
     }
     const std::vector<std::vector<std::byte>> of_ranks = team.gathered(std::move(own));
-    std::vector<double> depths;
+    std::vector<double> numbers;
     for (std::uint32_t rank = 0; rank < of_ranks.size(); ++rank) {
-        depths.resize(shares.n_pixels());
+        numbers.resize(shares.n_pixels());
         std::span<const std::byte> left = of_ranks[rank];
         for (const std::uint32_t tile : shares.tiles(rank)) {
-            take_numbers(left, shares.block(tile), shares.width(), 1, depths);
+            take_numbers(left, shares.block(tile), shares.width(), 1, numbers);
         }
     }
-    return depths;
+    return numbers;
 }
 
 Frame collected_frame(const TileShares& shares, const FrameRequest& request, Precision precision, SharedFrame picture,

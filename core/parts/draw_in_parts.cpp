@@ -85,24 +85,22 @@ bool has_wide_lines(const Surface& surface) {
 
 void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
     for (const Surface& surface : request.surfaces) {
-        if (surface.opacity < 1 && surface.has_lines()) {
-            refuse(scene, "lines on a surface that can be seen through");
-        }
-        if (surface.opacity < 1 && request.volume) {
-            refuse(scene, "a surface that can be seen through together with light of the volume");
-        }
-        if (surface.outside && surface.opacity < 1) {
-            refuse(scene, "a surface that can be seen through with a colour where it lies in no element");
+        if (surface.opacity < 1 && surface.has_lines() && !meets_rays_once(surface)) {
+            refuse(scene, "lines on a surface that can be seen through and is no plane");
         }
         const WireFrame* const wires = traits_of(surface.geometry).wires;
         if (wires != nullptr && wires->is_undeformed) {
             refuse(scene, "edges without the warp");
         }
+        if (surface.lic && surface.opacity < 1) {
+            refuse(scene, "line integral convolution on a surface that can be seen through");
+        }
         // Both look at what is cut away beside a pixel, of which no part knows all.
-        if (surface.lic && surface.is_see_through()) {
+        const bool is_cut = !surface.clip.empty() || !surface.conditions.empty();
+        if (surface.lic && is_cut) {
             refuse(scene, "line integral convolution with a threshold or with planes that cut the surface away");
         }
-        if (surface.is_see_through() && (has_wide_lines(surface) || (surface.has_lines() && scene.samples > 1))) {
+        if (is_cut && (has_wide_lines(surface) || (surface.has_lines() && scene.samples > 1))) {
             refuse(scene,
                    "lines of several pixels, or with several samples a pixel, with a threshold or with planes that cut the "
                    "surface away");
@@ -170,7 +168,7 @@ struct VolumeInParts::Impl {
     DrawParts drawing(const FrameRequest& request);
     DrawParts drawing_layers(const FrameRequest& alone);
     void need_memory_for(const FrameRequest& request, const Renderer& renderer, const std::string& what) const;
-    DrawParts drawing_light(const FrameRequest& request, std::vector<double> depths);
+    DrawParts drawing_light(const FrameRequest& request, std::vector<double> depths, std::vector<std::vector<double>> stops);
     std::vector<double> shades(const FrameRequest& alone, SharedFold& fold);
     void need_faces(FrameRequest request) const;
     SharedFrame draw_surfaces(const FrameRequest& request, SharedFold& fold);
@@ -263,13 +261,15 @@ DrawParts VolumeInParts::Impl::drawing_layers(const FrameRequest& alone) {
     };
 }
 
-/** `depths`: of what hides the volume, of each pixel. */
-DrawParts VolumeInParts::Impl::drawing_light(const FrameRequest& request, std::vector<double> depths) {
+/** `depths`: of what hides the volume, of each pixel; `stops`: FrameRequest::stops. */
+DrawParts VolumeInParts::Impl::drawing_light(const FrameRequest& request, std::vector<double> depths,
+                                             std::vector<std::vector<double>> stops) {
     FrameRequest light = request;
     light.surfaces.clear();
     light.with_buffers = false;
     light.gives_runs = true;
     light.hidden_from = std::make_shared<const std::vector<double>>(std::move(depths));
+    light.stops = std::move(stops);
     return [this, light](const std::function<void(const PartPicture&)>& take) {
         for (const BarePart& part : bare_parts) {
             Renderer& renderer = part.elements->renderer();
@@ -339,7 +339,7 @@ Frame VolumeInParts::Impl::draw(const FrameRequest& request, bool with_buffers) 
     SharedFold fold(request, precision, diagonal_of(ranges->bounds()), team);
     SharedFrame picture = draw_surfaces(request, fold);
     if (request.volume) {
-        fold.add_light(drawing_light(request, fold.depths(picture)), picture);
+        fold.add_light(drawing_light(request, fold.depths(picture), fold.stops(picture)), picture);
     }
     work.fold = fold.work();
     return fold.collected(std::move(picture), with_buffers);

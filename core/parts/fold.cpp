@@ -223,18 +223,23 @@ private:
 struct OwnedRun {
     const LightRun* run;
     std::uint32_t part;
+    bool is_stop;
 };
 
 /** By pixel, then along the ray; those that begin together by part. */
-std::vector<OwnedRun> all_runs(std::span<const PartRuns> parts) {
+std::vector<OwnedRun> all_runs(std::span<const PartRuns> parts, std::span<const LightRun> stops) {
     std::vector<OwnedRun> runs;
     for (const PartRuns& one : parts) {
         for (const LightRun& run : one.runs) {
-            runs.push_back({&run, one.part});
+            runs.push_back({&run, one.part, false});
         }
     }
-    std::ranges::stable_sort(
-        runs, {}, [](const OwnedRun& one) { return std::tuple(one.run->pixel, one.run->first, one.part, one.run->end); });
+    for (const LightRun& stop : stops) {
+        runs.push_back({&stop, 0, true});
+    }
+    std::ranges::stable_sort(runs, {}, [](const OwnedRun& one) {
+        return std::tuple(one.run->pixel, one.run->n_stops, one.is_stop, one.run->first, one.part, one.run->end);
+    });
     return runs;
 }
 
@@ -282,6 +287,11 @@ void crop(Frame& frame, const PixelBlock& block, const PixelBlock& kept) {
 std::uint32_t doubts_of(const PartPixel& pixel) {
     const bool others_know_better = pixel.is_outside() || (pixel.is_hit() && pixel.is_own == 0);
     return pixel.flags & (others_know_better ? misses : own_doubts);
+}
+
+bool meets_rays_once(const Surface& surface) {
+    const SurfaceTraits traits = traits_of(surface.geometry);
+    return traits.plane != nullptr || traits.wires != nullptr;
 }
 
 std::uint32_t reach_of_fold(const FrameRequest& request) {
@@ -395,18 +405,20 @@ void finish_surfaces(Frame& picture) {
     }
 }
 
-std::uint64_t add_light(const LightRule& rule, std::span<const PartRuns> parts, Frame& picture) {
+std::uint64_t add_light(const LightRule& rule, std::span<const PartRuns> parts, std::span<const LightRun> stops,
+                        Frame& picture) {
     std::uint64_t n_colored = 0;
-    const std::vector<OwnedRun> runs = all_runs(parts);
+    const std::vector<OwnedRun> runs = all_runs(parts, stops);
     for (auto next = runs.begin(); next != runs.end();) {
         LightRun light;
         light.pixel = next->run->pixel;
         light.error = rule.color_error;
+        bool is_overlapping = false;
         for (; next != runs.end() && next->run->pixel == light.pixel; ++next) {
-            light.flags |= next->run->first < light.end - hardly_overlapping * rule.diagonal ? pixel_flag::undecided : 0;
+            is_overlapping = is_overlapping || next->run->first < light.end - hardly_overlapping * rule.diagonal;
             add_behind(light, *next->run);
         }
-        picture.flags[light.pixel] |= light.flags;
+        picture.flags[light.pixel] |= light.flags | (is_overlapping ? pixel_flag::undecided : 0);
         picture.flags[light.pixel] |= error_of(light) <= rule.tolerance ? 0 : pixel_flag::volume_tolerance;
         if (light.transmittance < 1) {
             put_in_front(light, std::span(picture.color).subspan(4 * std::size_t{light.pixel}, 4));

@@ -25,6 +25,8 @@ struct PartRuns {
     std::vector<LightRun> runs;
 };
 
+/** Not again behind where they meet it. */
+bool meets_rays_once(const Surface& surface);
 /** How many pixels around a pixel must be known to put it together. */
 std::uint32_t reach_of_fold(const FrameRequest& request);
 
@@ -66,9 +68,11 @@ struct LightRule {
 /**
  * Puts light of the volume in front of what the block shows: along each ray the runs of all parts, in the order in which they
  * begin. What each is off adds up; where that is more than the tolerance the pixel is flagged (128), and as undecided (256)
- * where runs overlap by more than rounding. Returns how many pixels have light.
+ * where runs overlap by more than rounding. `stops`: surfaces that can be seen through, as such runs, each behind the light
+ * that has passed as many stops. Returns how many pixels have light.
  */
-std::uint64_t add_light(const LightRule& rule, std::span<const PartRuns> parts, Frame& picture);
+std::uint64_t add_light(const LightRule& rule, std::span<const PartRuns> parts, std::span<const LightRun> stops,
+                        Frame& picture);
 
 /** Frames without pixels: all else that is known of a picture. */
 Frame empty_facts(const FrameRequest& request);

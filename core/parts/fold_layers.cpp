@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <limits>
+#include <ranges>
+#include <utility>
 
 namespace elvis {
 
@@ -31,8 +33,13 @@ public:
             }
         }
         for (const SeenByPart& one : m_seen) {
-            if (one.pixel->is_own == 0 && !is_kept_near(one)) {
+            if (one.pixel->is_hit() && one.pixel->is_own == 0 && kept_near(one) == nullptr) {
                 keep(one, pixel_flag::undecided);
+            }
+        }
+        for (const SeenByPart& one : m_seen) {
+            if (one.pixel->is_outside()) {
+                keep_outside(one);
             }
         }
         std::vector<PartPixel> crossings;
@@ -74,8 +81,19 @@ private:
         });
     }
 
-    bool is_kept_near(const SeenByPart& one) const {
-        return std::ranges::any_of(m_kept, [&](const Kept& kept) { return is_near(kept.pixel, *one.pixel); });
+    /** What lies in an element of one part is outside of others. */
+    void keep_outside(const SeenByPart& one) {
+        Kept* const there = kept_near(one);
+        if (there == nullptr) {
+            keep(one, 0);
+        } else if (there->pixel.is_outside()) {
+            there->pixel.flags |= one.pixel->flags;
+        }
+    }
+
+    Kept* kept_near(const SeenByPart& one) {
+        const auto kept = std::ranges::find_if(m_kept, [&](const Kept& other) { return is_near(other.pixel, *one.pixel); });
+        return kept != m_kept.end() ? &*kept : nullptr;
     }
 
     double m_tolerance;
@@ -92,7 +110,7 @@ FoldedLayers folded_layers(std::size_t n_pixels, std::span<const PartPixels> par
     for (const PartPixels& one : parts) {
         for (const PartPixel& pixel : one.pixels) {
             folded.doubts[pixel.pixel] |= doubts_of(pixel);
-            if (pixel.is_hit()) {
+            if (pixel.is_hit() || pixel.is_outside()) {
                 seen[pixel.pixel].see(pixel, one.part);
             }
         }
@@ -102,6 +120,24 @@ FoldedLayers folded_layers(std::size_t n_pixels, std::span<const PartPixels> par
         folded.crossings.insert(folded.crossings.end(), crossings.begin(), crossings.end());
     }
     return folded;
+}
+
+FoldedLayers one_layer(const Frame& surface) {
+    FoldedLayers layer;
+    layer.doubts = surface.flags;
+    for (std::size_t pixel = 0; pixel < surface.flags.size(); ++pixel) {
+        if (!std::isnan(surface.depth[pixel])) {
+            PartPixel& crossing = layer.crossings.emplace_back();
+            crossing.pixel = static_cast<std::uint32_t>(pixel);
+            crossing.flags = std::exchange(layer.doubts[pixel], 0);
+            crossing.element = surface.element[pixel];
+            crossing.value = surface.value[pixel];
+            crossing.depth = surface.depth[pixel];
+            std::copy_n(&surface.normal[3 * pixel], 3, crossing.normal.begin());
+            std::copy_n(&surface.color[4 * pixel], 4, crossing.color.begin());
+        }
+    }
+    return layer;
 }
 
 LayerStack::LayerStack(const Frame& opaque) : m_opaque_depths(opaque.depth) {
@@ -128,21 +164,40 @@ void LayerStack::add(const FoldedLayers& surface, Frame& picture) {
     m_crossings.insert(m_crossings.end(), surface.crossings.begin(), surface.crossings.end());
 }
 
+std::vector<PartPixel> LayerStack::seen() const {
+    std::vector<PartPixel> seen;
+    std::ranges::copy_if(m_crossings, std::back_inserter(seen),
+                         [&](const PartPixel& crossing) { return crossing.depth < m_opaque_depths[crossing.pixel]; });
+    std::ranges::stable_sort(seen, {}, [](const PartPixel& crossing) { return std::pair(crossing.pixel, crossing.depth); });
+    return seen;
+}
+
 void LayerStack::blend(Frame& picture) const {
-    std::vector<PartPixel> farthest_first = m_crossings;
-    // Of two at the same depth the surface that comes first is in front.
-    std::ranges::reverse(farthest_first);
-    std::ranges::stable_sort(farthest_first, std::greater{}, &PartPixel::depth);
-    for (const PartPixel& crossing : farthest_first) {
-        if (crossing.depth < m_opaque_depths[crossing.pixel]) {
-            double* const under = &picture.color[4 * std::size_t{crossing.pixel}];
-            const double over = crossing.color[3], alpha = over + under[3] * (1 - over), share = alpha > 0 ? over / alpha : 0;
-            for (std::size_t channel = 0; channel < 3; ++channel) {
-                under[channel] += share * (crossing.color[channel] - under[channel]);
-            }
-            under[3] = alpha;
+    const std::vector<PartPixel> nearest_first = seen();
+    for (const PartPixel& crossing : nearest_first | std::views::reverse) {
+        double* const under = &picture.color[4 * std::size_t{crossing.pixel}];
+        const double over = crossing.color[3], alpha = over + under[3] * (1 - over), share = alpha > 0 ? over / alpha : 0;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            under[channel] += share * (crossing.color[channel] - under[channel]);
         }
+        under[3] = alpha;
     }
+}
+
+std::vector<LightRun> LayerStack::stops() const {
+    std::vector<LightRun> stops;
+    for (const PartPixel& crossing : seen()) {
+        const bool is_first = stops.empty() || stops.back().pixel != crossing.pixel;
+        LightRun& stop = stops.emplace_back();
+        stop.pixel = crossing.pixel;
+        stop.n_stops = static_cast<std::uint16_t>(is_first ? 0 : stops[stops.size() - 2].n_stops + 1);
+        stop.first = stop.end = crossing.depth;
+        stop.red = crossing.color[3] * crossing.color[0];
+        stop.green = crossing.color[3] * crossing.color[1];
+        stop.blue = crossing.color[3] * crossing.color[2];
+        stop.transmittance = 1 - crossing.color[3];
+    }
+    return stops;
 }
 
 } // namespace elvis

@@ -23,10 +23,12 @@ struct FoldedLayers {
 
 /**
  * Of what parts show, the nearest first in each pixel, all that they own. Where two parts each own what may be one crossing, or
- * where none owns what others see, rounding decides: it is there once, and flagged as undecided (256). `diagonal`: of the whole
- * volume's bounds.
+ * where none owns what others see, rounding decides: it is there once, and flagged as undecided (256). Outside of elements the
+ * surface lies where no part has an element. `diagonal`: of the whole volume's bounds.
  */
 FoldedLayers folded_layers(std::size_t n_pixels, std::span<const PartPixels> parts, double diagonal);
+/** Of a surface that rays meet once: its pixels (folded()). */
+FoldedLayers one_layer(const Frame& surface);
 
 /** Such surfaces of a block, until all are there. */
 class LayerStack {
@@ -38,9 +40,15 @@ public:
     void add(const FoldedLayers& surface, Frame& picture);
     /** Colours do when all surfaces are added, as shaders/picture/blend.comp mixes them. */
     void blend(Frame& picture) const;
+    /** Instead, where there is light of the volume, too: as runs of it (add_light), by pixel, the nearest first. */
+    std::vector<LightRun> stops() const;
+    /** Of opaque surfaces; infinite where there is none. */
+    const std::vector<double>& opaque_depths() const { return m_opaque_depths; }
 
 private:
-    /** Infinite where there is none. */
+    /** By pixel, the nearest first; of two at the same depth the surface that comes first is in front. */
+    std::vector<PartPixel> seen() const;
+
     std::vector<double> m_opaque_depths;
     /** In the order of surfaces. */
     std::vector<PartPixel> m_crossings;

@@ -16,6 +16,8 @@ namespace elvis {
 
 namespace {
 
+constexpr double infinitely_far = std::numeric_limits<double>::infinity();
+
 std::uint64_t bytes_in(const std::vector<std::vector<std::byte>>& messages) {
     return std::accumulate(messages.begin(), messages.end(), std::uint64_t{0},
                            [](std::uint64_t sum, const std::vector<std::byte>& one) { return sum + one.size(); });
@@ -89,8 +91,10 @@ SharedFrame SharedFold::surface(const FrameRequest& alone, const DrawParts& draw
 }
 
 void SharedFold::add_layers(const FrameRequest& alone, const DrawParts& draw, std::size_t index, SharedFrame& picture) {
+    const bool is_met_once = meets_rays_once(alone.surfaces[0]);
+    const std::uint32_t reach = is_met_once ? reach_of_fold(alone) : 0;
     std::vector<std::byte> facts;
-    const ReceivedParcels<PartPixel> received = exchanged(draw, 0, facts);
+    const ReceivedParcels<PartPixel> received = exchanged(draw, reach, facts);
     if (picture.layers.empty()) {
         for (const Frame& tile : picture.tiles) {
             picture.layers.emplace_back(tile);
@@ -98,9 +102,12 @@ void SharedFold::add_layers(const FrameRequest& alone, const DrawParts& draw, st
     }
     const auto tiles = m_shares.tiles(m_team.rank());
     for (std::size_t k = 0; k < tiles.size(); ++k) {
-        const PixelBlock block = m_shares.block(tiles[k]);
+        const PixelBlock block = m_shares.block(tiles[k], reach);
         const auto parts = parts_in(received, tiles[k], block, m_request.width, &PartPixels::pixels);
-        picture.layers[k].add(folded_layers(block.n_pixels(), parts, m_diagonal), picture.tiles[k]);
+        picture.layers[k].add(is_met_once
+                                  ? one_layer(folded(alone, block, m_shares.block(tiles[k]), parts, m_diagonal, m_precision))
+                                  : folded_layers(block.n_pixels(), parts, m_diagonal),
+                              picture.tiles[k]);
     }
     add_surface_facts(folded_facts(alone, facts_in(m_team.gathered(std::move(facts)))), index, picture.facts);
 }
@@ -113,21 +120,51 @@ void SharedFold::add(const SharedFrame& surface, std::size_t index, SharedFrame&
 }
 
 void SharedFold::finish_surfaces(SharedFrame& picture) const {
-    for (std::size_t k = 0; k < picture.layers.size(); ++k) {
+    for (std::size_t k = 0; k < picture.layers.size() && !m_request.volume; ++k) {
         picture.layers[k].blend(picture.tiles[k]);
     }
     std::ranges::for_each(picture.tiles, [](Frame& tile) { elvis::finish_surfaces(tile); });
 }
 
 std::vector<double> SharedFold::depths(const SharedFrame& picture) const {
-    constexpr double behind_everything = std::numeric_limits<double>::infinity();
     if (m_request.surfaces.empty()) {
-        return std::vector<double>(std::size_t{m_request.width} * m_request.height, behind_everything);
+        return std::vector<double>(std::size_t{m_request.width} * m_request.height, infinitely_far);
     }
-    std::vector<double> depths = collected_depths(m_shares, picture.tiles, m_team);
+    std::vector<std::vector<double>> of_tiles;
+    for (std::size_t k = 0; k < picture.tiles.size(); ++k) {
+        of_tiles.push_back(picture.layers.empty() ? picture.tiles[k].depth : picture.layers[k].opaque_depths());
+    }
+    std::vector<double> depths = collected_numbers(m_shares, of_tiles, m_team);
     std::ranges::replace_if(
-        depths, [](double depth) { return std::isnan(depth); }, behind_everything);
+        depths, [](double depth) { return std::isnan(depth); }, infinitely_far);
     return m_team.of_first(std::move(depths));
+}
+
+std::vector<std::vector<double>> SharedFold::stops(const SharedFrame& picture) const {
+    // By own tile, then stop.
+    std::vector<std::vector<std::vector<double>>> of_tiles;
+    double minus_most = 0;
+    for (const LayerStack& layers : picture.layers) {
+        std::vector<std::vector<double>>& depths = of_tiles.emplace_back();
+        for (const LightRun& stop : layers.stops()) {
+            if (stop.n_stops == depths.size()) {
+                depths.emplace_back(layers.opaque_depths().size(), infinitely_far);
+            }
+            depths[stop.n_stops][stop.pixel] = stop.first;
+        }
+        minus_most = std::min(minus_most, -static_cast<double>(depths.size()));
+    }
+    m_team.minimum(std::span(&minus_most, 1));
+    std::vector<std::vector<double>> all(static_cast<std::size_t>(-minus_most));
+    for (std::size_t stop = 0; stop < all.size(); ++stop) {
+        std::vector<std::vector<double>> own;
+        for (const std::vector<std::vector<double>>& depths : of_tiles) {
+            own.push_back(stop < depths.size() ? depths[stop] : std::vector<double>{});
+            own.back().resize(picture.layers[own.size() - 1].opaque_depths().size(), infinitely_far);
+        }
+        all[stop] = m_team.of_first(collected_numbers(m_shares, own, m_team));
+    }
+    return all;
 }
 
 void SharedFold::add_light(const DrawParts& draw, SharedFrame& picture) {
@@ -152,7 +189,8 @@ void SharedFold::add_light(const DrawParts& draw, SharedFrame& picture) {
     for (std::size_t index = 0; index < tiles.size(); ++index) {
         const PixelBlock block = m_shares.block(tiles[index]);
         const auto parts = parts_in(received, tiles[index], block, m_request.width, &PartRuns::runs);
-        m_work.n_lit_pixels += elvis::add_light(rule, parts, picture.tiles[index]);
+        const std::vector<LightRun> stops = picture.layers.empty() ? std::vector<LightRun>{} : picture.layers[index].stops();
+        m_work.n_lit_pixels += elvis::add_light(rule, parts, stops, picture.tiles[index]);
     }
     m_work.milliseconds = milliseconds_since(start);
     for (const Frame& part : facts_in(m_team.gathered(std::move(facts)))) {

@@ -55,10 +55,12 @@ public:
     void add_layers(const FrameRequest& alone, const DrawParts& draw, std::size_t index, SharedFrame& picture);
     /** Adds the surface of this index. */
     void add(const SharedFrame& surface, std::size_t index, SharedFrame& picture) const;
-    /** When all are added. */
+    /** When all are added. Those that can be seen through are mixed with the light if there is any. */
     void finish_surfaces(SharedFrame& picture) const;
-    /** Depths of a picture, infinite where it shows nothing, on all. */
+    /** Depths of opaque surfaces, infinite where there is none, on all. */
     std::vector<double> depths(const SharedFrame& picture) const;
+    /** FrameRequest::stops at surfaces that can be seen through, on all. */
+    std::vector<std::vector<double>> stops(const SharedFrame& picture) const;
     void add_light(const DrawParts& draw, SharedFrame& picture);
     /**
      * All pixels, on the first alone, with what is counted of them; elsewhere an empty frame. Without buffers colours and flags

@@ -72,6 +72,11 @@ struct FrameRequest {
     std::shared_ptr<const std::vector<double>> shades;
     /** Of a part of a volume, with hidden_from: Frame::runs are given in place of colours. */
     bool gives_runs = false;
+    /**
+     * Then: depths at which runs end and others begin. First of each pixel the nearest one, then the second, and so on;
+     * infinite where there is none.
+     */
+    std::vector<std::vector<double>> stops;
     /** Of one surface that can be seen through: Frame::layers are given. */
     bool gives_layers = false;
     /** Surfaces show their colours as they are if absent. */

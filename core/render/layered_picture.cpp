@@ -201,8 +201,8 @@ void LayeredPicture::draw(VolumePass& volume, const DeviceVolume& data) {
 
 void LayeredPicture::give_runs(VolumePass& volume, const DeviceVolume& data) {
     m_merge_pass.hide_behind(*m_request->hidden_from);
-    m_frame->runs = volume.runs(rays_of(*m_request, nullptr, data), start_of_view(), m_merge_pass, m_request->sharing.rows,
-                                m_frame->counts);
+    m_frame->runs = volume.runs(rays_of(*m_request, nullptr, data), start_of_view(), m_merge_pass, m_request->stops,
+                                m_request->sharing.rows, m_frame->counts);
     m_frame->color_error = volume.color_error();
 }
 

@@ -1,5 +1,5 @@
-// Takes from rays the light of the run that lies behind them, as soon as the next walk (segments/walk_state.glsl) is found, and at the end
-// of all. A part of a volume gives its light in such runs: what lies between them in other parts is put between them by the host.
+// Takes from rays the light of the run that lies behind them, as soon as the next walk (segments/walk_state.glsl) is found, where they wait
+// at a stop, and at the end of all. A part of a volume gives its light in such runs: what lies between them is put between them by the host.
 
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
@@ -28,9 +28,12 @@ layout(push_constant) uniform core_parameters {
     uint core_n_pixels;
     uint core_groups_x;
     uint core_width;
-    // Rays go no farther: what they have left is their last run.
-    uint core_is_end;
+    // As the host has it: LightRuns::When.
+    uint core_when;
 };
+
+#define CORE_AT_STOP 1u
+#define CORE_AT_END 2u
 
 // Along the pixel's ray.
 elvis_real core_depth_at(uint pixel, elvis_real t) {
@@ -44,11 +47,12 @@ void main() {
     const bool is_inside = pixel < core_n_pixels;
     const uint safe = min(pixel, core_n_pixels - 1u);
     core_volume_state state = core_states[safe];
-    const bool is_end = core_is_end != 0u;
-    const bool begins = is_inside && !is_end && state.walk.status == CORE_RAY_HAS_SOUGHT && state.walk.global_element != CORE_NO_ELEMENT;
+    // All rays wait, or go no farther: what they have left is a run.
+    const bool is_stop = core_when == CORE_AT_STOP, is_end = core_when == CORE_AT_END;
+    const bool begins = is_inside && !is_stop && !is_end && state.walk.status == CORE_RAY_HAS_SOUGHT && state.walk.global_element != CORE_NO_ELEMENT;
     const uint cut_short = state.walk.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT;
     const uint flags = is_end ? state.walk.flags | cut_short : 0u;
-    const bool is_taken = is_inside && (begins || is_end) && (state.light.transmittance < elvis_real(1) || flags != 0u);
+    const bool is_taken = is_inside && (begins || is_stop || is_end) && (state.light.transmittance < elvis_real(1) || flags != 0u);
     if (is_taken) {
         const uint place = atomicAdd(core_counts[0], 1u);
         const core_light light = state.light;
@@ -60,5 +64,9 @@ void main() {
     }
     if (begins && (is_taken || state.light.transmittance == elvis_real(1))) {
         core_firsts[pixel] = max(state.walk.at, state.walk.done);
+    }
+    if (is_inside && is_stop && state.walk.status == CORE_RAY_WAITS) {
+        core_firsts[pixel] = max(core_firsts[pixel], state.walk.done);
+        core_states[pixel].walk.status = CORE_RAY_GOES;
     }
 }

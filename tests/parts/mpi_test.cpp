@@ -86,7 +86,7 @@ TEST_CASE("Light, wide lines, streaks and layers are the same by any number of p
         "lic": {"length": 6, "field": "y*grad(x) - x*grad(y)"}, "lighting": "default"})~");
     folder.write("layers.json", R"~({"version": 1, "volume": {"path": "box.h5"}, "image": {"size": [96, 72]},
         "surfaces": [{"type": "plane", "plane": [1, 0.2, 0, 0.1]}, {"type": "isosurface", "values": [0.2, 0.5], "opacity": 0.4},
-                     {"type": "boundary", "opacity": 0.3}]})~");
+                     {"type": "boundary", "opacity": 0.3}], "volume_rendering": {}})~");
     for (const auto& [scene, counts] :
          {std::pair<std::string, std::vector<std::string>>{"volume", {"2", "4"}}, {"layers", {"2"}}, {"lines", {"3"}}}) {
         REQUIRE(folder.run("render " + scene + ".json --parts 3 -o one.png --buffers one.h5").status == 0);

@@ -115,7 +115,7 @@ TEST_CASE("What cannot be drawn in parts is refused") {
                std::string::npos;
     };
     CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5, "mesh_lines": {}}])"));
-    CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5}], "volume_rendering": {"density": [[0, 0], [1, 1]]})"));
+    CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5, "lic": {"field": "velocity"}}])"));
     CHECK(refused(R"("threshold": "sphere > 0.2", "lic": {"field": "velocity"})"));
     CHECK(refused(R"("surfaces": [{"type": "boundary", "clip": [[1, 0, 0, 0]], "lic": {"field": "velocity"}}])"));
     // Not a part alone, but the whole has none.

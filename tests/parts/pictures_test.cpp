@@ -237,6 +237,11 @@ TEST_CASE("Surfaces that can be seen through are in parts those of the whole") {
                                         {"type": "boundary", "clip": [[-1, 0, 0, -0.1]]},
                                         {"type": "isosurface", "values": [0.3], "opacity": 0.7, "clip": [[0, 1, 0, 0.1]]},
                                         {"type": "boundary", "opacity": 0.2}])"},
+        {"lines on planes",
+         R"("surfaces": [{"type": "plane", "plane": [0.3, 0.25, 1, 0.05], "opacity": 0.5, "contours": {"count": 5},
+                                            "mesh_lines": {}},
+                                           {"type": "plane", "plane": [1, 0, 0, 0.1], "opacity": 0.5, "mesh_lines": {"width": 3}},
+                                           {"type": "wireframe", "opacity": 0.5}])"},
     };
     Stage hexahedra(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
     Stage mixed(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
@@ -254,6 +259,10 @@ TEST_CASE("Where surfaces lie in no element they have in parts the colour that t
                                              "contours": {"count": 5}, "mesh_lines": {}}])"},
         {"sphere before the boundary", R"("surfaces": [{"type": "sphere", "center": [1, 0, 0], "radius": 0.6,
                                                       "outside": [0.2, 0.9, 0.9]}, {"type": "boundary"}], "lighting": "default")"},
+        {"both seen through", R"("surfaces": [{"type": "sphere", "center": [1, 0, 0], "radius": 0.6, "opacity": 0.4,
+                                              "outside": [0.2, 0.9, 0.9]},
+                                             {"type": "plane", "plane": [0.3, 0.25, 1, 0.05], "outside": [1, 0.9, 0.2],
+                                              "opacity": 0.6, "mesh_lines": {}}])"},
     };
     Stage stage(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
     for (const Picture& picture : pictures) {
@@ -366,6 +375,27 @@ TEST_CASE("Volume rendering in parts is that of the whole") {
     compare(stage, {"in front of a plane", before.c_str()}, 4);
     const std::string within = std::string(density) + R"(, "camera": {"eye": [0.1, 0.05, 0.02], "look_at": [1, 0.2, 0.3]})";
     compare(stage, {"with the eye inside", within.c_str()}, 3);
+}
+
+TEST_CASE("Light of the volume between surfaces that can be seen through is in parts that of the whole") {
+    const Picture pictures[] = {
+        {"isosurfaces in the volume",
+         R"("surfaces": [{"type": "isosurface", "values": [-0.3, 0.3], "opacity": 0.4}], "lighting": "default",
+                                         "volume_rendering": {"density": [[-2, 0], [-0.5, 0.2], [0.5, 0.6], [2, 3]]})"},
+        {"boundary around it, a plane in it",
+         R"("surfaces": [{"type": "boundary", "opacity": 0.3}, {"type": "plane", "plane": [1, 0.2, 0, 0.1], "opacity": 0.5, "mesh_lines": {}},
+                         {"type": "boundary", "clip": [[0, 0, -1, 0.3]]}], "volume_rendering": {"density": [[-2, 0], [2, 2]]})"},
+        {"the eye inside", R"("surfaces": [{"type": "sphere", "center": [0, 0, 0], "radius": 0.5, "opacity": 0.5}],
+                              "volume_rendering": {"density": [[-2, 0], [2, 2]]},
+                              "camera": {"eye": [0.1, 0.05, 0.02], "look_at": [1, 0.2, 0.3]})"},
+    };
+    Stage hexahedra(R"({"generator": 1, "mesh": "waves", "elements": [4, 3, 3], "order": 3, "field": "waves"})");
+    Stage mixed(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
+                    "field": "waves"})");
+    for (const Picture& picture : pictures) {
+        compare(hexahedra, picture, 4);
+        compare(mixed, picture, 3);
+    }
 }
 
 TEST_CASE("Camera, ranges and expressions in parts are those of the whole") {

@@ -22,6 +22,14 @@ struct MergePixelParameters {
 
 } // namespace
 
+std::vector<double> device_depths(std::span<const double> depths) {
+    constexpr double behind_all = 3e38; // CORE_FAR
+    std::vector<double> finite(depths.begin(), depths.end());
+    std::ranges::replace_if(
+        finite, [](double depth) { return !(depth < behind_all); }, behind_all);
+    return finite;
+}
+
 MergePass::MergePass(const Device& device, Precision precision)
     : m_device(device), m_precision(precision),
       m_merge(device, pixel_kernel("picture/merge", precision, {.storage = 12}, sizeof(MergeParameters))),
@@ -98,12 +106,8 @@ void MergePass::fill_empty() {
 }
 
 void MergePass::hide_behind(std::span<const double> depths) {
-    constexpr double behind_all = 3e38; // CORE_FAR
     fill_empty();
-    std::vector<double> finite(depths.begin(), depths.end());
-    std::ranges::replace_if(
-        finite, [](double depth) { return !(depth < behind_all); }, behind_all);
-    write_reals(*m_depths, m_precision, finite);
+    write_reals(*m_depths, m_precision, device_depths(depths));
     m_is_empty = false;
 }
 

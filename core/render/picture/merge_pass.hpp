@@ -19,6 +19,9 @@ struct TransparentLayer {
     Buffer colors, depths;
 };
 
+/** Depths as the device has them: CORE_FAR where they are infinite. */
+std::vector<double> device_depths(std::span<const double> depths);
+
 class MergePass {
 public:
     MergePass(const Device& device, Precision precision);

@@ -12,7 +12,9 @@ namespace elvis {
 struct LightRun {
     std::uint32_t pixel = 0;
     /** pixel_flag: of the whole ray, with one of its runs. */
-    std::uint32_t flags = 0;
+    std::uint16_t flags = 0;
+    /** How many of FrameRequest::stops lie before it. */
+    std::uint16_t n_stops = 0;
     /** Depths between which it lies. */
     double first = 0, end = 0;
     double red = 0, green = 0, blue = 0;

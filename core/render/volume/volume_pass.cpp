@@ -255,7 +255,7 @@ void VolumePass::march_all(const Picture& picture, FrameCounts& counts) {
             m_search.seek(index, picture.rays, live);
         }
         if (picture.runs != nullptr) {
-            picture.runs->take(m_frame, *m_states, false);
+            picture.runs->take(m_frame, *m_states, LightRuns::When::between_walks);
         }
         for (std::size_t index = 0; index < m_march.size(); ++index) {
             if (picture.only_live) {
@@ -308,15 +308,22 @@ void VolumePass::draw(const CutPlaneGeometry& view, const ViewStart& start, cons
 }
 
 std::vector<LightRun> VolumePass::runs(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged,
-                                       bool only_live, FrameCounts& counts) {
+                                       std::span<const std::vector<double>> stops, bool only_live, FrameCounts& counts) {
     Picture picture = begin(view, start, merged, only_live, 0, counts);
     if (!m_runs) {
         m_runs.emplace(m_device, m_precision);
     }
     picture.runs = &*m_runs;
     m_runs->begin(picture.layer.width, picture.layer.height);
+    for (const std::vector<double>& depths : stops) {
+        picture.stops = &provide_buffer(m_stops, m_device, depths.size() * real_bytes(m_precision));
+        write_reals(*m_stops, m_precision, device_depths(depths));
+        march_all(picture, counts);
+        m_runs->take(m_frame, *m_states, LightRuns::When::at_stop);
+    }
+    picture.stops = nullptr;
     march_all(picture, counts);
-    m_runs->take(m_frame, *m_states, true);
+    m_runs->take(m_frame, *m_states, LightRuns::When::at_end);
     return m_runs->sorted();
 }
 

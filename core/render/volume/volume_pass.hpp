@@ -43,9 +43,12 @@ public:
     void draw(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
               FrameCounts& counts);
 
-    /** The same light in runs (core/render/volume/light_run.hpp), by pixel and along each ray, without color_error(). */
-    std::vector<LightRun> runs(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged, bool only_live,
-                               FrameCounts& counts);
+    /**
+     * The same light in runs (core/render/volume/light_run.hpp), by pixel and along each ray, without color_error(). `stops`:
+     * FrameRequest::stops.
+     */
+    std::vector<LightRun> runs(const CutPlaneGeometry& view, const ViewStart& start, const MergePass& merged,
+                               std::span<const std::vector<double>> stops, bool only_live, FrameCounts& counts);
     /** What each channel of a ray's light is off because colours have few breakpoints. */
     double color_error() const { return m_color_error; }
 
@@ -81,6 +84,8 @@ private:
     std::optional<Buffer> m_breakpoints, m_pieces;
     /** Kept from frame to frame. */
     std::optional<Buffer> m_states;
+    /** Of the stop that rays go to. */
+    std::optional<Buffer> m_stops;
     /** Made when first wanted: few pictures do. */
     std::optional<LightRuns> m_runs;
 };
