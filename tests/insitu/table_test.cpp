@@ -122,6 +122,38 @@ TEST_CASE("A solver's own functions are drawn, sampled and integrated at each st
     }
 }
 
+#ifdef ELVIS_TEST_FORTRAN
+extern "C" elvis_result run_fortran_solver(elvis_context* context, const elvis_runtime* runtime, elvis_volume* volume,
+                                           const char* folder);
+
+TEST_CASE("A solver in Fortran hands over a table of functions") {
+    const ServedFile file;
+    const elvis_runtime table = ScaledTable::make();
+    elvis_context* context = nullptr;
+    elvis_insitu* insitu = nullptr;
+    elvis_context_create(&file.context_options, &context);
+    ScaledTable::factor = 1;
+    const std::string folder = file.path("");
+    CHECK(run_fortran_solver(context, &table, file.served, folder.c_str()) == ELVIS_OK);
+    // The same in C adds the same row to the same table.
+    const char* const plan = R"~({"version": 1, "outputs": [{"name": "sum", "quantities": ["integral(waves^2)"]}]})~";
+    REQUIRE(elvis_insitu_open_runtime(context, nullptr, &table, file.served, plan, folder.c_str(), &insitu) == ELVIS_OK);
+    CHECK(elvis_insitu_step(insitu, 0, 0) == ELVIS_OK);
+    elvis_insitu_release(insitu);
+    std::istringstream lines(file.read("sum.csv"));
+    std::string head, of_fortran, of_c;
+    std::getline(lines, head);
+    std::getline(lines, of_fortran);
+    std::getline(lines, of_c);
+    CHECK(of_fortran == of_c);
+    CHECK(last_number(of_c) > 0.1);
+    elvis_runtime without = table;
+    without.get_class = nullptr;
+    CHECK(run_fortran_solver(context, &without, file.served, folder.c_str()) != ELVIS_OK);
+    elvis_context_release(context);
+}
+#endif
+
 TEST_CASE("A table of functions is refused on several ranks, on all with the same words") {
     const ServedFile file;
     const elvis_runtime table = ScaledTable::make();

@@ -8,8 +8,9 @@ module elvis_insitu
   implicit none
   private
   public :: elvis_context_create, elvis_context_release, elvis_context_error
-  public :: elvis_insitu_open, elvis_insitu_set_values, elvis_insitu_step, elvis_insitu_get_report, elvis_insitu_error
-  public :: elvis_insitu_release, elvis_insitu_ranks_create, elvis_insitu_ranks_release, c_text, fortran_text
+  public :: elvis_insitu_open, elvis_insitu_open_runtime, elvis_insitu_set_values, elvis_insitu_step
+  public :: elvis_insitu_get_report, elvis_insitu_error, elvis_insitu_release
+  public :: elvis_insitu_ranks_create, elvis_insitu_ranks_release, c_text, fortran_text
 
   integer(c_int32_t), parameter, public :: ELVIS_OK = 0
   integer(c_int32_t), parameter, public :: ELVIS_SHAPE_HEXAHEDRON = 0, ELVIS_SHAPE_PRISM = 1, ELVIS_SHAPE_PYRAMID = 2, &
@@ -85,6 +86,15 @@ module elvis_insitu
       import :: c_ptr, c_int32_t, c_char, elvis_arrays
       type(c_ptr), value :: context, communicator
       type(elvis_arrays), intent(in) :: arrays
+      character(kind=c_char), intent(in) :: plan(*), folder(*)
+      type(c_ptr), intent(out) :: insitu
+      integer(c_int32_t) :: status
+    end function
+
+    !> `runtime`: the address of an elvis_runtime, which is made in C, or has functions with bind(c) in it; `volume`: what they get.
+    function elvis_insitu_open_runtime(context, communicator, runtime, volume, plan, folder, insitu) bind(c) result(status)
+      import :: c_ptr, c_int32_t, c_char
+      type(c_ptr), value :: context, communicator, runtime, volume
       character(kind=c_char), intent(in) :: plan(*), folder(*)
       type(c_ptr), intent(out) :: insitu
       integer(c_int32_t) :: status
