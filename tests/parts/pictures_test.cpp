@@ -247,7 +247,6 @@ TEST_CASE("Surfaces that can be seen through are in parts those of the whole") {
     Stage mixed(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
                     "field": "waves"})");
     for (const Picture& picture : pictures) {
-        compare(hexahedra, picture, 2);
         compare(hexahedra, picture, 5);
         compare(mixed, picture, 3);
     }
@@ -392,10 +391,9 @@ TEST_CASE("Light of the volume between surfaces that can be seen through is in p
     Stage hexahedra(R"({"generator": 1, "mesh": "waves", "elements": [4, 3, 3], "order": 3, "field": "waves"})");
     Stage mixed(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
                     "field": "waves"})");
-    for (const Picture& picture : pictures) {
-        compare(hexahedra, picture, 4);
-        compare(mixed, picture, 3);
-    }
+    compare(hexahedra, pictures[0], 4);
+    compare(mixed, pictures[1], 3);
+    compare(hexahedra, pictures[2], 4);
 }
 
 TEST_CASE("Camera, ranges and expressions in parts are those of the whole") {
