@@ -1,5 +1,5 @@
-// Takes from rays the light of the run that lies behind them, as soon as the next walk (segments/walk_state.glsl) is found, where they wait
-// at a stop, and at the end of all. A part of a volume gives its light in such runs: what lies between them is put between them by the host.
+// Takes from rays the light of the run that lies behind them: as soon as the next walk (segments/walk_state.glsl) is found, where they wait
+// at a stop, and at the end of all. A part of a volume gives its light in such runs. What lies between them is put there by the host.
 
 layout(local_size_x = CORE_GROUP_SIZE) in;
 
@@ -49,7 +49,8 @@ void main() {
     core_volume_state state = core_states[safe];
     // All rays wait, or go no farther: what they have left is a run.
     const bool is_stop = core_when == CORE_AT_STOP, is_end = core_when == CORE_AT_END;
-    const bool begins = is_inside && !is_stop && !is_end && state.walk.status == CORE_RAY_HAS_SOUGHT && state.walk.global_element != CORE_NO_ELEMENT;
+    const bool is_found = state.walk.status == CORE_RAY_HAS_SOUGHT && state.walk.global_element != CORE_NO_ELEMENT;
+    const bool begins = is_inside && !is_stop && !is_end && is_found;
     const uint cut_short = state.walk.status == CORE_RAY_ENDS ? 0u : CORE_FLAG_WORK_LIMIT;
     const uint flags = is_end ? state.walk.flags | cut_short : 0u;
     const bool is_taken = is_inside && (begins || is_stop || is_end) && (state.light.transmittance < elvis_real(1) || flags != 0u);
