@@ -121,7 +121,7 @@ TEST_CASE("One, two and four ranks draw the bytes that elvis render draws in as 
     const Mesh mesh(waves);
     // Colours are said, and the camera stands where the whole volume is seen.
     mesh.write("scene.json", R"~({"version": 1, "volume": {"path": "whole.h5"}, "image": {"size": [96, 72]},
-        "color_map": {"range": [-1, 1]}, "surfaces": [{"type": "plane", "plane": [1, 0.2, 0.1, 0.1],
+        "color_map": {"range": [-1, 1]}, "surfaces": [{"type": "plane", "plane": [1, 0.2, 0.1, 0.1], "opacity": 0.6,
         "mesh_lines": {}}, {"type": "boundary", "clip": [[0, 0, -1, 0]]}], "volume_rendering": {}})~");
     for (const std::uint32_t n : {1u, 2u, 4u}) {
         INFO(n << " ranks");
