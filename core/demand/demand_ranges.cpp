@@ -1,8 +1,8 @@
 #include <core/demand/demand_ranges.hpp>
 
 #include <core/base/error.hpp>
-#include <core/demand/selected_volume.hpp>
 #include <core/expression/expression.hpp>
+#include <core/plugin_host/selected_volume.hpp>
 #include <core/render/field/field_range.hpp>
 #include <core/volume/field/field_extrema.hpp>
 #include <core/volume/field/weighted_derivatives.hpp>

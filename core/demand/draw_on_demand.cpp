@@ -7,8 +7,8 @@
 #include <core/demand/demand_ranges.hpp>
 #include <core/demand/elements_in_blocks.hpp>
 #include <core/demand/needed_elements.hpp>
-#include <core/demand/selected_volume.hpp>
 #include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/selected_volume.hpp>
 #include <core/render/bands.hpp>
 #include <core/scene/frame_request.hpp>
 #include <core/session/missed_surfaces.hpp>

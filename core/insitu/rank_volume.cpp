@@ -3,10 +3,7 @@
 #include <core/api/array_mesh.hpp>
 #include <core/api/call.hpp>
 #include <core/parts/all_boxes.hpp>
-#include <core/parts/part_volume.hpp>
 #include <core/session/volume/warped.hpp>
-
-#include <elvis/native/serve.hpp>
 
 #include <algorithm>
 #include <array>
@@ -306,9 +303,12 @@ void RankVolume::find_faces() {
 
 void RankVolume::serve_own() {
     m_whole.emplace(serve_native(m_source, m_name, &m_control));
+    m_parted = parted_native(m_source, *m_whole, &m_control,
+                             [this](std::uint64_t element, std::span<const double> xi, std::span<double> positions) {
+                                 read_mapping(element, xi, positions);
+                             });
     if (!m_own_elements.empty()) {
-        auto own = std::make_shared<const PartVolume>(m_source, by_class(*m_whole, m_own_elements));
-        m_own.emplace(serve_native(std::move(own), m_name, &m_control, &m_own_served));
+        m_own.emplace(m_parted->open(m_own_elements));
     }
 }
 
@@ -341,8 +341,8 @@ std::uint64_t RankVolume::read_values() {
             }
         }
     }
-    if (is_any_changed && m_own_served != nullptr) {
-        native::forget_fields(m_own_served);
+    if (is_any_changed && m_own) {
+        m_own->forget_fields();
     }
     return n_read;
 }

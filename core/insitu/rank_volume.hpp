@@ -10,6 +10,7 @@
 
 #include <core/api/arrays.hpp>
 #include <core/base/cancel.hpp>
+#include <core/parts/parted_volume.hpp>
 #include <core/parts/partition.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
@@ -28,18 +29,18 @@ public:
     /** Collective. `name` stands for the volume in messages. Team and control must outlive it. */
     RankVolume(const elvis_arrays& arrays, std::string name, CommunicatorTeam& team, const TaskControl& control);
 
-    const std::shared_ptr<SharedVolume>& source() const { return m_source; }
+    const PartedVolume& parted() const { return *m_parted; }
     const Partition& partition() const { return *m_partition; }
     const RuntimeVolume& whole() const override { return *m_whole; }
-    const RuntimeVolume* own() const override { return m_own ? &*m_own : nullptr; }
+    const RuntimeVolume* own() const override { return m_own ? &m_own->volume : nullptr; }
 
     void set_values(std::uint32_t field, std::uint32_t element_class, const double* values) override;
     std::uint64_t read_values() override;
     std::vector<std::uint32_t> share_values() override;
-    /** Collective: what MappingReader asks for. The element's rank tells all. */
-    void read_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions);
 
 private:
+    /** Collective: what MappingReader asks for. The element's rank tells all. */
+    void read_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions);
     void count_elements();
     void check_same_on_all();
     void find_surroundings();
@@ -57,8 +58,9 @@ private:
     std::vector<std::vector<const double*>> m_values;
     std::shared_ptr<SharedVolume> m_source;
     std::optional<Partition> m_partition;
-    std::optional<RuntimeVolume> m_whole, m_own;
-    elvis_volume* m_own_served = nullptr;
+    std::optional<RuntimeVolume> m_whole;
+    std::unique_ptr<PartedVolume> m_parted;
+    std::optional<OpenedElements> m_own;
     /** Own elements, and those that are held, ascending. */
     std::vector<std::uint64_t> m_own_elements, m_held;
     /** By rank: own elements that it holds, and elements of it that this rank holds. */

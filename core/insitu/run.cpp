@@ -200,11 +200,8 @@ VolumeInParts& InsituRun::parts(Precision precision) {
     if (!drawn) {
         const Device& device = m_context->device();
         log_line(LogLevel::info, "in situ: rank {} draws with {}", m_team.rank(), device.summary().name);
-        drawn = std::make_unique<VolumeInParts>(m_by_ranks->source(), m_volume->whole(), device, precision,
-                                                m_by_ranks->partition(), m_team, &m_control,
-                                                [this](std::uint64_t element, std::span<const double> xi, std::span<double> x) {
-                                                    m_by_ranks->read_mapping(element, xi, x);
-                                                });
+        drawn = std::make_unique<VolumeInParts>(m_by_ranks->parted(), device, precision, m_by_ranks->partition(), m_team,
+                                                &m_control);
     }
     return *drawn;
 }

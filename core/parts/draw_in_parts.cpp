@@ -9,7 +9,6 @@
 #include <core/parts/drawn_part.hpp>
 #include <core/parts/fold_lic.hpp>
 #include <core/parts/part_picture.hpp>
-#include <core/parts/part_volume.hpp>
 #include <core/parts/shared_fold.hpp>
 #include <core/parts/whole_ranges.hpp>
 #include <core/render/bands.hpp>
@@ -141,7 +140,7 @@ std::vector<std::size_t> drawing_order(const std::vector<Surface>& surfaces) {
 } // namespace
 
 struct VolumeInParts::Impl {
-    std::shared_ptr<const native::VolumeSource> source;
+    const PartedVolume& volume;
     const RuntimeVolume& whole;
     const Device& device;
     Precision precision;
@@ -155,8 +154,6 @@ struct VolumeInParts::Impl {
     std::vector<Renderer*> renderers{};
     std::unique_ptr<WholeRanges> ranges{};
     PartsWork work{};
-    /** Whether `whole` evaluates all elements, not some alone. */
-    bool can_evaluate_whole = true;
     StreamlineTubes streamlines{};
     SceneArrowSets arrows{};
 
@@ -179,8 +176,7 @@ struct VolumeInParts::Impl {
 
 std::unique_ptr<DrawnElements> VolumeInParts::Impl::opened(std::span<const std::uint64_t> elements,
                                                            const std::array<double, 6>& bounds) const {
-    auto volume = std::make_shared<const PartVolume>(source, by_class(whole, elements));
-    return std::make_unique<DrawnElements>(std::move(volume), whole.path(), device, precision, control, bounds);
+    return std::make_unique<DrawnElements>(volume.open(elements), device, precision, control, bounds);
 }
 
 void VolumeInParts::Impl::open_bare_parts() {
@@ -218,7 +214,7 @@ Scene VolumeInParts::Impl::with_glyphs(const Scene& scene) {
     const bool has_glyphs = std::ranges::any_of(scene.surfaces, [](const SceneSurface& surface) {
         return surface.streamlines.has_value() || surface.arrows.has_value();
     });
-    if (has_glyphs && !can_evaluate_whole) {
+    if (has_glyphs && volume.shared_mapping()) {
         throw Error(scene.volume, "streamlines, pathlines and arrows cannot be drawn where no process knows all elements");
     }
     if (has_glyphs) {
@@ -384,12 +380,11 @@ std::vector<PartsWork> VolumeInParts::Impl::work_of_all() {
     return all;
 }
 
-VolumeInParts::VolumeInParts(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole,
-                             const Device& device, Precision precision, Partition partition, Team& team,
-                             const TaskControl* control, MappingReader mapping)
-    : m_impl(new Impl{std::move(source), whole, device, precision, std::move(partition), team, control}) {
+VolumeInParts::VolumeInParts(const PartedVolume& volume, const Device& device, Precision precision, Partition partition,
+                             Team& team, const TaskControl* control)
+    : m_impl(new Impl{volume, volume.whole(), device, precision, std::move(partition), team, control}) {
     Impl& impl = *m_impl;
-    impl.boxes = all_boxes(whole, impl.partition, team, control);
+    impl.boxes = all_boxes(impl.whole, impl.partition, team, control);
     const std::array<double, 6> bounds = box_around(impl.boxes);
     const Span own = own_parts(impl.partition, team);
     for (std::uint64_t part = own.first; part < own.end; ++part) {
@@ -397,8 +392,7 @@ VolumeInParts::VolumeInParts(std::shared_ptr<const native::VolumeSource> source,
             impl.open_part(static_cast<std::uint32_t>(part), bounds);
         }
     }
-    impl.can_evaluate_whole = !mapping;
-    impl.ranges = std::make_unique<WholeRanges>(whole, *impl.source, impl.boxes, impl.renderers, team, std::move(mapping));
+    impl.ranges = std::make_unique<WholeRanges>(volume, impl.boxes, impl.renderers, team);
 }
 
 VolumeInParts::~VolumeInParts() = default;

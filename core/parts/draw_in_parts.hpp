@@ -6,15 +6,12 @@
 
 #include <core/base/cancel.hpp>
 #include <core/base/team.hpp>
+#include <core/parts/parted_volume.hpp>
 #include <core/parts/partition.hpp>
 #include <core/parts/shared_fold.hpp>
-#include <core/parts/whole_ranges.hpp>
-#include <core/plugin_host/runtime_volume.hpp>
 #include <core/scene/scene.hpp>
 #include <core/session/still_picture.hpp>
 #include <core/vulkan/device.hpp>
-
-#include <elvis/native/volume_source.hpp>
 
 #include <cstdint>
 #include <memory>
@@ -47,19 +44,15 @@ struct PartsPicture {
 };
 
 /**
- * A native volume in parts (core/parts/partition.hpp). Each process opens, with those elements around them that lie close by,
+ * A volume in parts (core/parts/partition.hpp). Each process opens, with those elements around them that lie close by,
  * the parts that it owns, and nothing else. The picture is the same to the bit for every number of processes, and that of the
  * whole volume but for rounding.
  */
 class VolumeInParts {
 public:
-    /**
-     * `whole` serves `source`: of it is read what is written down of the structure, and bounds of own elements. All must
-     * outlive it. `mapping`: see WholeRanges. Called by all members of the team, as are all functions.
-     */
-    VolumeInParts(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole, const Device& device,
-                  Precision precision, Partition partition, Team& team, const TaskControl* control = nullptr,
-                  MappingReader mapping = {});
+    /** All must outlive it. Called by all members of the team, as are all functions. */
+    VolumeInParts(const PartedVolume& volume, const Device& device, Precision precision, Partition partition, Team& team,
+                  const TaskControl* control = nullptr);
     ~VolumeInParts();
     VolumeInParts(const VolumeInParts&) = delete;
     VolumeInParts& operator=(const VolumeInParts&) = delete;

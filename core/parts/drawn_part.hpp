@@ -4,18 +4,15 @@
  */
 #pragma once
 
+#include <core/parts/parted_volume.hpp>
 #include <core/parts/partition.hpp>
 #include <core/render/renderer.hpp>
-#include <core/session/volume/warped.hpp>
-
-#include <elvis/native/serve.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,27 +21,25 @@ namespace elvis {
 /** Some elements of a volume as a volume of their own, with what draws them. */
 class DrawnElements {
 public:
-    /** `name` stands for the volume in messages; `bounds` are those of the whole. */
-    DrawnElements(std::shared_ptr<const native::VolumeSource> source, const std::string& name, const Device& device,
-                  Precision precision, const TaskControl* control, const std::array<double, 6>& bounds)
-        : m_volume(serve_native(std::move(source), name, control, &m_served)),
-          m_renderer(device, m_volume, precision, control, bounds) {}
+    /** `bounds` are those of the whole. */
+    DrawnElements(OpenedElements opened, const Device& device, Precision precision, const TaskControl* control,
+                  const std::array<double, 6>& bounds)
+        : m_opened(std::move(opened)), m_renderer(device, m_opened.volume, precision, control, bounds) {}
 
-    const RuntimeVolume& volume() const { return m_volume; }
+    const RuntimeVolume& volume() const { return m_opened.volume; }
     Renderer& renderer() { return m_renderer; }
     const Renderer& renderer() const { return m_renderer; }
 
     /** Values of these fields have changed. */
     void forget_fields(std::span<const std::uint32_t> fields) {
-        native::forget_fields(m_served);
+        m_opened.forget_fields();
         for (const std::uint32_t field : fields) {
             m_renderer.forget_fields(field);
         }
     }
 
 private:
-    elvis_volume* m_served = nullptr;
-    RuntimeVolume m_volume;
+    OpenedElements m_opened;
     Renderer m_renderer;
 };
 

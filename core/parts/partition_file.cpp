@@ -72,14 +72,14 @@ Partition read_partition(const std::string& path, const RuntimeVolume& whole) {
     return Partition(runs_of_parts(by_number, *std::ranges::max_element(by_number) + std::size_t{1}, path, whole));
 }
 
-Partition own_partition(const native::VolumeSource& source, const RuntimeVolume& whole) {
-    const std::uint32_t n_parts = source.description().n_parts;
+Partition own_partition(const native::VolumeSource* source, const RuntimeVolume& whole) {
+    const std::uint32_t n_parts = source != nullptr ? source->description().n_parts : 0;
     if (n_parts == 0) {
         throw Error(whole.path(), "has no partition of its own, so there is no --parts own; --parts N or --parts FILE say one");
     }
     std::vector<std::uint32_t> by_number(whole.n_elements());
     try {
-        source.read_parts(0, by_number);
+        source->read_parts(0, by_number);
     } catch (const native::FileError& error) {
         throw Error(error.what());
     }

@@ -20,7 +20,10 @@ inline constexpr std::uint32_t most_parts = 1000000;
  */
 Partition read_partition(const std::string& path, const RuntimeVolume& whole);
 
-/** That of the volume's own file, which has it from a solver. Throws Error if it has none. `whole` serves `source`. */
-Partition own_partition(const native::VolumeSource& source, const RuntimeVolume& whole);
+/**
+ * That of the volume's own file, which has it from a solver. Throws Error if it has none. `whole` serves `source`, which is
+ * null of a volume that is not native: it has none.
+ */
+Partition own_partition(const native::VolumeSource* source, const RuntimeVolume& whole);
 
 } // namespace elvis

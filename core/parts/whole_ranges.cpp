@@ -46,14 +46,13 @@ std::string key_of(const FieldChoice& field) {
 
 } // namespace
 
-WholeRanges::WholeRanges(const RuntimeVolume& whole, const native::VolumeSource& source, const std::vector<double>& boxes,
-                         std::span<Renderer* const> parts, Team& team, MappingReader mapping)
-    : m_whole(whole), m_source(source), m_boxes(boxes), m_parts(parts), m_team(team), m_mapping(std::move(mapping)),
-      m_bounds(box_around(boxes)) {}
+WholeRanges::WholeRanges(const PartedVolume& volume, const std::vector<double>& boxes, std::span<Renderer* const> parts,
+                         Team& team)
+    : m_volume(volume), m_whole(volume.whole()), m_boxes(boxes), m_parts(parts), m_team(team), m_bounds(box_around(boxes)) {}
 
 const std::vector<Vector3>& WholeRanges::outline() {
     if (m_outline.empty()) {
-        m_outline = outline_points(m_whole, m_boxes, m_mapping);
+        m_outline = outline_points(m_whole, m_boxes, m_volume.shared_mapping());
     }
     return m_outline;
 }
@@ -68,7 +67,7 @@ const FieldExtrema& WholeRanges::extrema(const FieldChoice& field, std::uint32_t
 }
 
 FieldExtrema WholeRanges::found_extrema(const FieldChoice& field, std::uint32_t time_step) {
-    if (!field.expression && !m_source.read_extrema(field.field, time_step).empty()) {
+    if (!field.expression && m_volume.tells_extrema(field.field, time_step)) {
         if (const auto said = m_whole.extrema(field.field, field.component, time_step)) {
             return *said;
         }

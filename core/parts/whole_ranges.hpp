@@ -5,12 +5,10 @@
 #pragma once
 
 #include <core/base/team.hpp>
+#include <core/parts/parted_volume.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/render/field/picture_ranges.hpp>
 #include <core/render/renderer.hpp>
-#include <core/volume/outline.hpp>
-
-#include <elvis/native/volume_source.hpp>
 
 #include <array>
 #include <cstdint>
@@ -29,11 +27,10 @@ namespace elvis {
 class WholeRanges final : public PictureRanges {
 public:
     /**
-     * `boxes`: of all elements, six numbers each. `parts`: draw the parts of this member. All must outlive it; of `whole` only
-     * what is far out is read, by `mapping` if there is one, and what the file says of extrema.
+     * `boxes`: of all elements, six numbers each. `parts`: draw the parts of this member. All must outlive it; of the whole
+     * only what is far out is read, and extrema that it tells.
      */
-    WholeRanges(const RuntimeVolume& whole, const native::VolumeSource& source, const std::vector<double>& boxes,
-                std::span<Renderer* const> parts, Team& team, MappingReader mapping = {});
+    WholeRanges(const PartedVolume& volume, const std::vector<double>& boxes, std::span<Renderer* const> parts, Team& team);
 
     const std::array<double, 6>& bounds() const override { return m_bounds; }
     const std::vector<Vector3>& outline() override;
@@ -51,12 +48,11 @@ private:
     FieldExtrema found_extrema(const FieldChoice& field, std::uint32_t time_step);
     std::pair<FieldRange, elvis_certainty> found_range(const FieldChoice& field, std::uint32_t time_step);
 
+    const PartedVolume& m_volume;
     const RuntimeVolume& m_whole;
-    const native::VolumeSource& m_source;
     const std::vector<double>& m_boxes;
     std::span<Renderer* const> m_parts;
     Team& m_team;
-    MappingReader m_mapping;
     std::array<double, 6> m_bounds{};
     std::vector<Vector3> m_outline;
     /** By field and component, or expression, and time step. */

@@ -4,6 +4,7 @@
 #include "cut_snippet.hpp"
 #include "file.hpp"
 
+#include <elvis/demand.h>
 #include <elvis/plugin.hpp>
 
 #include <algorithm>
@@ -125,7 +126,7 @@ public:
         static const elvis_text sources[2] = {api::text(snippet::files[1].name, snippet::files[1].text),
                                               api::text(snippet::files[0].name, snippet::files[0].text)};
         out.capabilities = ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_INVERSE_MAPPING |
-                           ELVIS_SNIPPET_FIELD_OFFSET | ELVIS_SNIPPET_LOCAL_ORIGIN |
+                           ELVIS_SNIPPET_FIELD_OFFSET | ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_ELEMENT_RECORDS |
                            (element_class == cut_class ? ELVIS_SNIPPET_INSIDE : 0u);
         out.prefix = "cutcells";
         out.n_sources = element_class == cut_class ? 2 : 1;

@@ -8,6 +8,7 @@
 #include "file.hpp"
 #include "snippet.hpp"
 
+#include <elvis/demand.h>
 #include <elvis/plugin.hpp>
 
 #include <Eigen/LU>
@@ -109,7 +110,8 @@ public:
 
     void get_snippet(std::uint32_t element_class, elvis_snippet& out) override {
         out.capabilities = ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_FIELD_OFFSET |
-                           ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN;
+                           ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_FIELD_HESSIAN | ELVIS_SNIPPET_MAPPING_HESSIAN |
+                           ELVIS_SNIPPET_ELEMENT_RECORDS;
         out.prefix = "dubiner";
         out.n_sources = static_cast<std::uint32_t>(m_classes.at(element_class).sources.size());
         out.sources = m_classes[element_class].sources.data();

@@ -4,6 +4,7 @@
 #include "nurbs_snippet.hpp"
 #include "patch.hpp"
 
+#include <elvis/demand.h>
 #include <elvis/plugin.hpp>
 
 #include <algorithm>
@@ -143,7 +144,7 @@ public:
     void get_snippet(std::uint32_t, elvis_snippet& out) override {
         static const elvis_text source = api::text(snippet::files[0].name, snippet::files[0].text);
         out.capabilities = ELVIS_SNIPPET_FIELD_GRADIENT | ELVIS_SNIPPET_MAPPING_JACOBIAN | ELVIS_SNIPPET_FIELD_OFFSET |
-                           ELVIS_SNIPPET_LOCAL_ORIGIN;
+                           ELVIS_SNIPPET_LOCAL_ORIGIN | ELVIS_SNIPPET_ELEMENT_RECORDS;
         out.prefix = "nurbs";
         out.n_sources = 1;
         out.sources = &source;

@@ -19,21 +19,30 @@
 
 namespace elvis::test {
 
-/** A native volume from the generator. */
+/** A volume, by default a native one from the generator. */
 class Stage {
 public:
-    explicit Stage(const std::string& description, Precision precision = Precision::float32) : m_precision(precision) {
-        oracle::generate(description, m_folder.path("volume.h5"));
-        m_whole.emplace(oracle::open_volume(m_folder.path("volume.h5")));
+    /** In parts as native volumes are, or as those of any runtime plugin. */
+    enum class Way { native, plugin };
+
+    explicit Stage(const std::string& description, Precision precision = Precision::float32, Way way = Way::native)
+        : m_path(m_folder.path("volume.h5")), m_way(way), m_precision(precision) {
+        oracle::generate(description, m_path);
+        m_whole.emplace(oracle::open_volume(m_path));
     }
+    /** What a runtime plugin opens. */
+    struct File {
+        std::string path;
+    };
+    explicit Stage(const File& file) : m_path(file.path), m_way(Way::plugin), m_whole(oracle::open_volume(m_path)) {}
 
     const RuntimeVolume& volume() const { return *m_whole; }
-    std::shared_ptr<const native::VolumeSource> source() const { return native_source(m_folder.path("volume.h5")); }
+    std::shared_ptr<const native::VolumeSource> source() const { return native_source(m_path); }
 
     /** Of a scene with these keys. */
     Scene scene(const std::string& keys) const {
         Scene made = scene_of(nlohmann::json::parse(R"({"version": 1, "image": {"size": [160, 120]}, )" + keys + "}"), "scene");
-        made.volume = m_folder.path("volume.h5");
+        made.volume = m_path;
         return made;
     }
 
@@ -53,14 +62,18 @@ public:
     }
 
     std::unique_ptr<VolumeInParts> open_parts(Partition partition) {
-        return std::make_unique<VolumeInParts>(source(), *m_whole, device(), m_precision, std::move(partition), m_alone);
+        m_parted = m_way == Way::native ? parted_native(source(), *m_whole, nullptr) : parted_by_plugin(*m_whole);
+        return std::make_unique<VolumeInParts>(*m_parted, device(), m_precision, std::move(partition), m_alone);
     }
 
 private:
     TemporaryFolder m_folder;
-    Precision m_precision;
+    std::string m_path;
+    Way m_way;
+    Precision m_precision = Precision::float32;
     OneProcess m_alone;
     std::optional<RuntimeVolume> m_whole;
+    std::unique_ptr<PartedVolume> m_parted;
     std::unique_ptr<Renderer> m_renderer;
     std::unique_ptr<VolumeInParts> m_parts;
     std::uint32_t m_n_parts = 0;

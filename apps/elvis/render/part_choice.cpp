@@ -49,9 +49,9 @@ void check_parts(const RenderArguments& arguments, bool is_animation) {
     }
 }
 
-Partition partition_of(const RenderArguments& arguments, const NativeVolume& volume) {
+Partition partition_of(const RenderArguments& arguments, const VolumeToPart& volume) {
     if (arguments.parts == own_parts_word) {
-        return own_partition(*volume.source, volume.whole);
+        return own_partition(volume.source.get(), volume.whole);
     }
     const std::optional<std::uint32_t> n_parts = number_of_parts(arguments.parts);
     return n_parts ? Partition::in_shares(volume.whole.n_elements(), *n_parts) : read_partition(arguments.parts, volume.whole);

@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "native_volume.hpp"
 #include "render_options.hpp"
+#include "volume_to_part.hpp"
 
 #include <core/parts/partition.hpp>
 
@@ -16,6 +16,6 @@ void check_parts(const RenderArguments& arguments, bool is_animation);
 
 /** Parts of a volume. Throws Error for a file that does not say a part of each element, and where the volume has no partition
  * of its own. */
-Partition partition_of(const RenderArguments& arguments, const NativeVolume& volume);
+Partition partition_of(const RenderArguments& arguments, const VolumeToPart& volume);
 
 } // namespace elvis::commands

@@ -83,13 +83,13 @@ private:
 
 } // namespace
 
-void render_parts_film(const RenderArguments& arguments, const Scene& scene, const NativeVolume& volume, const Device& device,
+void render_parts_film(const RenderArguments& arguments, const Scene& scene, const VolumeToPart& volume, const Device& device,
                        Partition partition, DivisibleTeam& team, const TaskControl& control) {
     const std::uint32_t n_groups = std::max(1u, team.size() / partition.n_parts());
     const std::unique_ptr<Team> group = team.group(n_groups);
     fs::create_directories(arguments.output);
-    VolumeInParts parts(volume.source, volume.whole, device, scene.precision.value_or(Precision::float32), std::move(partition),
-                        *group, &control);
+    const std::unique_ptr<PartedVolume> parted = volume.parted(control);
+    VolumeInParts parts(*parted, device, scene.precision.value_or(Precision::float32), std::move(partition), *group, &control);
     const std::vector<Scene> frames = frames_of(scene, volume.whole, parts);
     GroupPictures pictures(arguments, parts, *group);
     for (auto frame = team.group_number(n_groups); frame < frames.size(); frame += n_groups) {

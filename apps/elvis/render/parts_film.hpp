@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "native_volume.hpp"
 #include "render_options.hpp"
+#include "volume_to_part.hpp"
 
 #include <core/parts/partition.hpp>
 #include <core/vulkan/device.hpp>
@@ -16,7 +16,7 @@ namespace elvis::commands {
  * Processes beyond the number of parts are further groups, each of which draws pictures of its own: every picture is drawn by
  * one group. Their bytes do not depend on that. Called by all of the team.
  */
-void render_parts_film(const RenderArguments& arguments, const Scene& scene, const NativeVolume& volume, const Device& device,
+void render_parts_film(const RenderArguments& arguments, const Scene& scene, const VolumeToPart& volume, const Device& device,
                        Partition partition, DivisibleTeam& team, const TaskControl& control);
 
 } // namespace elvis::commands

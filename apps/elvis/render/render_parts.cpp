@@ -1,7 +1,7 @@
 #include "render_parts.hpp"
-#include "native_volume.hpp"
 #include "part_choice.hpp"
 #include "parts_film.hpp"
+#include "volume_to_part.hpp"
 
 #include <core/base/milliseconds.hpp>
 #include <core/base/output_file.hpp>
@@ -14,6 +14,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -80,7 +81,7 @@ void render_parts(const RenderArguments& arguments, const scene& shown) {
     need_parts_can_draw(scene);
     const TaskControl control;
     const PluginRegistry plugins;
-    const NativeVolume volume = open_native(scene, plugins, team, control);
+    const VolumeToPart volume = open_to_part(scene, plugins, team, control);
     scene.volume = volume.whole.path();
     const Precision precision = scene.precision.value_or(Precision::float32);
     const Device device(arguments.device, arguments.validation);
@@ -91,7 +92,8 @@ void render_parts(const RenderArguments& arguments, const scene& shown) {
         render_parts_film(arguments, scene, volume, device, std::move(partition), team, control);
         return;
     }
-    VolumeInParts parts(volume.source, volume.whole, device, precision, std::move(partition), team, &control);
+    const std::unique_ptr<PartedVolume> parted = volume.parted(control);
+    VolumeInParts parts(*parted, device, precision, std::move(partition), team, &control);
     const PartsPicture picture = parts.draw(scene, !arguments.buffers.empty());
     if (!team.is_first()) {
         return;

@@ -6,7 +6,7 @@
 #include <core/base/error.hpp>
 #include <core/base/infinity.hpp>
 #include <core/conformance/checks/device_check_tools.hpp>
-#include <core/demand/selected_volume.hpp>
+#include <core/plugin_host/selected_volume.hpp>
 #include <core/shader/poison.hpp>
 
 #include <elvis/demand.h>

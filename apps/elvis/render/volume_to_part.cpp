@@ -1,4 +1,4 @@
-#include "native_volume.hpp"
+#include "volume_to_part.hpp"
 
 #include <core/base/error.hpp>
 #include <core/session/volume/joined.hpp>
@@ -30,25 +30,33 @@ VolumeFile find_file(const std::string& path, const Files& said, const PluginReg
     if (!file) {
         file = find();
     }
-    if (file->plugin->id() != native_plugin_id) {
-        throw Error(path, "only native volumes, and what is converted to them, are drawn in parts; this is one of " +
-                              file->plugin->id() + " (elvis convert makes native volumes)");
-    }
     return *file;
+}
+
+std::shared_ptr<const native::VolumeSource> source_of(const VolumeFile& file, const char* key) {
+    if (file.plugin->id() != native_plugin_id) {
+        throw Error(file.path, "only native volumes, and what is converted to them, can be " + std::string(key));
+    }
+    return native_source(file.path);
 }
 
 } // namespace
 
-NativeVolume open_native(const Scene& scene, const PluginRegistry& plugins, Team& team, const TaskControl& control) {
+VolumeToPart open_to_part(const Scene& scene, const PluginRegistry& plugins, Team& team, const TaskControl& control) {
     std::vector<VolumeFile> files{find_file(scene.volume, scene, plugins, team, control)};
     const std::string path = files.front().path;
-    std::shared_ptr<const native::VolumeSource> source = native_source(path);
+    if (files.front().plugin->id() != native_plugin_id && scene.joined.empty() && !scene.warp) {
+        RuntimeVolume whole = files.front().open(&control);
+        return {std::move(files), nullptr, std::move(whole)};
+    }
+    std::shared_ptr<const native::VolumeSource> source =
+        source_of(files.front(), scene.joined.empty() ? "displaced (warp)" : "joined (joined)");
     std::vector<native::Joined> joined;
     for (const SceneJoin& join : scene.joined) {
         if (!join.path.empty()) {
             files.push_back(find_file(join.path, join, plugins, team, control));
         }
-        joined.push_back({join.name, join.path.empty() ? source : native_source(files.back().path), join.time_step});
+        joined.push_back({join.name, join.path.empty() ? source : source_of(files.back(), "joined (joined)"), join.time_step});
     }
     if (!joined.empty()) {
         source = joined_source(std::move(source), std::move(joined), path);

@@ -1,10 +1,11 @@
 /**
- * @file native_volume.hpp
- * Volumes that are drawn in parts: native ones, and what is converted to them.
+ * @file volume_to_part.hpp
+ * Volumes that are drawn in parts.
  */
 #pragma once
 
 #include <core/base/team.hpp>
+#include <core/parts/parted_volume.hpp>
 #include <core/plugin_host/plugin.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 #include <core/scene/scene.hpp>
@@ -17,15 +18,20 @@
 
 namespace elvis::commands {
 
-/** What a volume's numbers come from, and the volume that serves them. */
-struct NativeVolume {
+struct VolumeToPart {
     /** Its own, then those joined to it: they hold temporary files. */
     std::vector<VolumeFile> files;
+    /** Of a native volume, or of what was converted to one: what its numbers come from. Else null. */
     std::shared_ptr<const native::VolumeSource> source;
     RuntimeVolume whole;
+
+    /** This and `control` must outlive it. Throws Error for a plugin whose elements cannot be chosen. */
+    std::unique_ptr<PartedVolume> parted(const TaskControl& control) const {
+        return source ? parted_native(source, whole, &control) : parted_by_plugin(whole);
+    }
 };
 
 /** Called by all of the team; what has to be converted, the first converts. */
-NativeVolume open_native(const Scene& scene, const PluginRegistry& plugins, Team& team, const TaskControl& control);
+VolumeToPart open_to_part(const Scene& scene, const PluginRegistry& plugins, Team& team, const TaskControl& control);
 
 } // namespace elvis::commands

@@ -4,7 +4,7 @@
  */
 #pragma once
 
-#include <core/demand/selected_volume.hpp>
+#include <core/plugin_host/selected_volume.hpp>
 
 #include <elvis/plugin.hpp>
 
@@ -46,6 +46,7 @@ public:
                                                 std::uint64_t count, std::span<double> bounds);
     elvis_certainty get_field_apex_bounds(std::uint32_t field, std::uint32_t time_step, std::uint64_t first,
                                           std::uint64_t count, std::span<double> bounds);
+    elvis_certainty check_jacobians(std::uint64_t first, double tolerance, api::StructArray<elvis_jacobian_check> checks);
 
 private:
     struct ClassField {

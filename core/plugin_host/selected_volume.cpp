@@ -1,7 +1,7 @@
-#include <core/demand/selected_volume.hpp>
+#include <core/plugin_host/selected_volume.hpp>
 
-#include <core/demand/selection_table.hpp>
 #include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/selection_table.hpp>
 
 #include <elvis/demand.h>
 
@@ -20,6 +20,9 @@ elvis_runtime table_like(const RuntimeVolume& whole) {
     }
     if (!whole.has_derivative_bounds()) {
         table.get_field_derivative_bounds = nullptr;
+    }
+    if (!whole.has_jacobian_checks()) {
+        table.check_jacobians = nullptr;
     }
     if (!whole.has_evaluation()) {
         table.evaluate_mapping = nullptr;

@@ -1,4 +1,4 @@
-#include <core/demand/selection_table.hpp>
+#include <core/plugin_host/selection_table.hpp>
 
 #include <core/base/error.hpp>
 
@@ -286,6 +286,21 @@ elvis_certainty SelectionTable::bound_derivatives(DerivativeBounder bounder, std
     for (std::size_t i = 0; i < read.size(); ++i) {
         bounds[2 * i] = read[i].first;
         bounds[2 * i + 1] = read[i].second;
+    }
+    return certainty;
+}
+
+elvis_certainty SelectionTable::check_jacobians(std::uint64_t first, double tolerance,
+                                                api::StructArray<elvis_jacobian_check> checks) {
+    std::vector<JacobianCheck> read(checks.size());
+    elvis_certainty certainty = ELVIS_CERTIFIED;
+    for_each_run(first, read.size(), [&](std::uint64_t element, std::uint64_t n, std::uint64_t at) {
+        certainty = worse(certainty, m_whole.check_jacobians(element, tolerance, std::span(read).subspan(at, n)));
+    });
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        const JacobianCheck& from = read[i];
+        checks.set(
+            i, {sizeof(elvis_jacobian_check), from.sign, {from.xi[0], from.xi[1], from.xi[2]}, from.determinant, from.lower});
     }
     return certainty;
 }

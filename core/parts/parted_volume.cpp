@@ -1,0 +1,75 @@
+#include <core/parts/parted_volume.hpp>
+
+#include <core/base/error.hpp>
+#include <core/parts/part_volume.hpp>
+#include <core/parts/partition.hpp>
+#include <core/plugin_host/plugin.hpp>
+#include <core/plugin_host/selected_volume.hpp>
+#include <core/session/volume/warped.hpp>
+
+#include <elvis/native/serve.hpp>
+
+#include <utility>
+#include <vector>
+
+namespace elvis {
+
+namespace {
+
+class PartedNative final : public PartedVolume {
+public:
+    PartedNative(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole, const TaskControl* control,
+                 MappingReader shared_mapping)
+        : m_source(std::move(source)), m_whole(whole), m_control(control), m_shared_mapping(std::move(shared_mapping)) {}
+
+    const RuntimeVolume& whole() const override { return m_whole; }
+    OpenedElements open(std::span<const std::uint64_t> elements) const override {
+        auto part = std::make_shared<const PartVolume>(m_source, by_class(m_whole, elements));
+        elvis_volume* served = nullptr;
+        RuntimeVolume volume = serve_native(std::move(part), m_whole.path(), m_control, &served);
+        return {std::move(volume), [served] { native::forget_fields(served); }};
+    }
+    bool tells_extrema(std::uint32_t field, std::uint32_t time_step) const override {
+        return !m_source->read_extrema(field, time_step).empty();
+    }
+    MappingReader shared_mapping() const override { return m_shared_mapping; }
+
+private:
+    std::shared_ptr<const native::VolumeSource> m_source;
+    const RuntimeVolume& m_whole;
+    const TaskControl* m_control;
+    MappingReader m_shared_mapping;
+};
+
+class PartedByPlugin final : public PartedVolume {
+public:
+    explicit PartedByPlugin(const RuntimeVolume& whole) : m_whole(whole) {}
+
+    const RuntimeVolume& whole() const override { return m_whole; }
+    OpenedElements open(std::span<const std::uint64_t> elements) const override {
+        return {selected_volume(m_whole, {elements.begin(), elements.end()}, SelectedFaces::of_elements), [] {}};
+    }
+    /** Those of plugins that offer it are their own affair: all processes get the same answer. */
+    bool tells_extrema(std::uint32_t, std::uint32_t) const override { return true; }
+
+private:
+    const RuntimeVolume& m_whole;
+};
+
+} // namespace
+
+std::unique_ptr<PartedVolume> parted_native(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole,
+                                            const TaskControl* control, MappingReader shared_mapping) {
+    return std::make_unique<PartedNative>(std::move(source), whole, control, std::move(shared_mapping));
+}
+
+std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole) {
+    if (!can_select(whole)) {
+        throw Error(whole.path(), "cannot be drawn in parts: plugin " + whole.plugin().id() +
+                                      " does not say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS); without "
+                                      "--parts it can be drawn");
+    }
+    return std::make_unique<PartedByPlugin>(whole);
+}
+
+} // namespace elvis
