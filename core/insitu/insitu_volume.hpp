@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <core/parts/parted_volume.hpp>
+#include <core/parts/partition.hpp>
 #include <core/plugin_host/runtime_volume.hpp>
 
 #include <cstdint>
@@ -19,6 +21,9 @@ public:
     virtual const RuntimeVolume& whole() const = 0;
     /** Own elements alone; null if there are none. */
     virtual const RuntimeVolume* own() const = 0;
+    /** What parts are opened of, a part a rank; null where one rank has the whole, which is drawn as it is. */
+    virtual const PartedVolume* parted() const { return nullptr; }
+    virtual const Partition* partition() const { return nullptr; }
 
     /** Throws InvalidArgument. */
     virtual void set_values(std::uint32_t field, std::uint32_t element_class, const double* values) = 0;

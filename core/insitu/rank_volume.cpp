@@ -1,4 +1,5 @@
 #include "rank_volume.hpp"
+#include "ranks.hpp"
 
 #include <core/api/array_mesh.hpp>
 #include <core/api/call.hpp>
@@ -82,7 +83,7 @@ RankVolume::RankVolume(const elvis_arrays& arrays, std::string name, Communicato
         throw InvalidArgument("arrays", "have more than one time step");
     }
     m_contents.description.times = {0};
-    check_same_on_all();
+    need_same_on_all(as_text(m_contents), m_team, "arrays", "classes, fields or boundary groups are not those of rank 0");
     m_values.resize(m_contents.fields.size());
     for (std::size_t field = 0; field < m_values.size(); ++field) {
         need(m_contents.fields[field].values, "values");
@@ -108,39 +109,17 @@ void RankVolume::set_values(std::uint32_t field, std::uint32_t element_class, co
     m_values[field][element_class] = values;
 }
 
-void RankVolume::check_same_on_all() {
-    const std::string own = as_text(m_contents);
-    std::vector<double> first = m_team.of_first({own.begin(), own.end()});
-    if (!std::ranges::equal(first, std::vector<double>(own.begin(), own.end()))) {
-        throw InvalidArgument("arrays", "classes, fields or boundary groups are not those of rank 0");
-    }
-}
-
-/** In each class elements are counted rank by rank. */
 void RankVolume::count_elements() {
-    std::vector<double> own;
+    std::vector<std::uint64_t> own;
     for (const elvis_array_class& given : m_contents.classes) {
-        own.push_back(static_cast<double>(given.n_elements));
+        own.push_back(given.n_elements);
     }
-    const std::vector<double> counts = m_team.joined(own);
+    ElementsOfRanks all = elements_of_ranks(own, m_team, "arrays");
     native::Description description = m_contents.description;
-    std::vector<std::vector<Span>> parts(m_team.size());
-    std::uint64_t next = 0;
     for (std::size_t index = 0; index < own.size(); ++index) {
-        description.classes[index].n_elements = 0;
-        for (std::uint32_t rank = 0; rank < m_team.size(); ++rank) {
-            const auto n = static_cast<std::uint64_t>(counts[rank * own.size() + index]);
-            if (n > 0) {
-                parts[rank].push_back({next, next + n});
-            }
-            next += n;
-            description.classes[index].n_elements += n;
-        }
+        description.classes[index].n_elements = all.n_elements[index];
     }
-    if (next == 0) {
-        throw InvalidArgument("arrays", "no rank has an element");
-    }
-    m_partition.emplace(std::move(parts));
+    m_partition.emplace(std::move(all.partition));
     m_own_elements = m_partition->elements(m_team.rank());
     m_source = std::make_shared<SharedVolume>(std::move(description));
 }
@@ -303,10 +282,7 @@ void RankVolume::find_faces() {
 
 void RankVolume::serve_own() {
     m_whole.emplace(serve_native(m_source, m_name, &m_control));
-    m_parted = parted_native(m_source, *m_whole, &m_control,
-                             [this](std::uint64_t element, std::span<const double> xi, std::span<double> positions) {
-                                 read_mapping(element, xi, positions);
-                             });
+    m_parted = parted_native(m_source, *m_whole, &m_control, mapping_of_ranks(*m_whole, *m_partition, m_team));
     if (!m_own_elements.empty()) {
         m_own.emplace(m_parted->open(m_own_elements));
     }
@@ -372,18 +348,6 @@ std::vector<std::uint32_t> RankVolume::share_values() {
         });
     m_is_changed.assign(m_is_changed.size(), false);
     return changed;
-}
-
-void RankVolume::read_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions) {
-    std::uint32_t owner = 0;
-    const auto holds = [&](const Span& run) { return run.holds(element); };
-    while (std::ranges::none_of(m_partition->runs(owner), holds)) {
-        ++owner;
-    }
-    if (owner == m_team.rank()) {
-        m_whole->evaluate_mapping(element, xi, positions, {});
-    }
-    m_team.broadcast(owner, std::as_writable_bytes(positions));
 }
 
 } // namespace elvis::library

@@ -29,8 +29,8 @@ public:
     /** Collective. `name` stands for the volume in messages. Team and control must outlive it. */
     RankVolume(const elvis_arrays& arrays, std::string name, CommunicatorTeam& team, const TaskControl& control);
 
-    const PartedVolume& parted() const { return *m_parted; }
-    const Partition& partition() const { return *m_partition; }
+    const PartedVolume* parted() const override { return m_parted.get(); }
+    const Partition* partition() const override { return &*m_partition; }
     const RuntimeVolume& whole() const override { return *m_whole; }
     const RuntimeVolume* own() const override { return m_own ? &m_own->volume : nullptr; }
 
@@ -39,10 +39,7 @@ public:
     std::vector<std::uint32_t> share_values() override;
 
 private:
-    /** Collective: what MappingReader asks for. The element's rank tells all. */
-    void read_mapping(std::uint64_t element, std::span<const double> xi, std::span<double> positions);
     void count_elements();
-    void check_same_on_all();
     void find_surroundings();
     void share_mesh();
     void find_faces();

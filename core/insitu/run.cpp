@@ -1,4 +1,6 @@
 #include "run.hpp"
+#include "rank_table_volume.hpp"
+#include "rank_volume.hpp"
 #include "table_volume.hpp"
 
 #include <core/api/call.hpp>
@@ -61,9 +63,7 @@ InsituRun::InsituRun(std::shared_ptr<Context> context, const elvis_communicator*
     : m_context(std::move(context)), m_team(communicator), m_folder(std::move(folder)) {
     const auto start = std::chrono::steady_clock::now();
     m_team.together([&] {
-        auto volume = std::make_unique<RankVolume>(arrays, volume_name, m_team, m_control);
-        m_by_ranks = volume.get();
-        m_volume = std::move(volume);
+        m_volume = std::make_unique<RankVolume>(arrays, volume_name, m_team, m_control);
         open_plan(plan);
     });
     m_opened = std::chrono::steady_clock::now();
@@ -81,12 +81,10 @@ InsituRun::InsituRun(std::shared_ptr<Context> context, const elvis_communicator*
 
 void InsituRun::open_table(const elvis_runtime& table, elvis_volume* volume, const std::string& plan) {
     if (m_team.size() > 1) {
-        throw InvalidArgument("communicator",
-                              "has " + std::to_string(m_team.size()) +
-                                  " ranks; a table of functions is taken on one rank alone, and on several arrays "
-                                  "(elvis_insitu_open): elements around those of a rank come from other ranks");
+        m_volume = std::make_unique<RankTableVolume>(table, volume, volume_name, m_team);
+    } else {
+        m_volume = std::make_unique<TableVolume>(table, volume, volume_name);
     }
-    m_volume = std::make_unique<TableVolume>(table, volume, volume_name);
     open_plan(plan);
 }
 
@@ -200,8 +198,8 @@ VolumeInParts& InsituRun::parts(Precision precision) {
     if (!drawn) {
         const Device& device = m_context->device();
         log_line(LogLevel::info, "in situ: rank {} draws with {}", m_team.rank(), device.summary().name);
-        drawn = std::make_unique<VolumeInParts>(m_by_ranks->parted(), device, precision, m_by_ranks->partition(), m_team,
-                                                &m_control);
+        drawn =
+            std::make_unique<VolumeInParts>(*m_volume->parted(), device, precision, *m_volume->partition(), m_team, &m_control);
     }
     return *drawn;
 }
@@ -224,7 +222,7 @@ Renderer& InsituRun::renderer(Precision precision) {
 /** On the first rank; elsewhere empty. */
 StillPicture InsituRun::picture_of(const Scene& scene, bool with_buffers) {
     const Precision precision = precision_of(scene);
-    if (m_by_ranks == nullptr) {
+    if (m_volume->parted() == nullptr) {
         StillOptions options;
         options.with_buffers = with_buffers;
         return draw_still(scene, m_volume->whole(), renderer(precision), options, &m_control);

@@ -4,8 +4,9 @@
  */
 #pragma once
 
+#include "communicator_team.hpp"
+#include "insitu_volume.hpp"
 #include "plan.hpp"
-#include "rank_volume.hpp"
 #include "samples.hpp"
 
 #include <core/api/handles.hpp>
@@ -27,7 +28,7 @@ public:
     /** Collective. */
     InsituRun(std::shared_ptr<Context> context, const elvis_communicator* communicator, const elvis_arrays& arrays,
               const std::string& plan, std::string folder);
-    /** Of one rank: a table, and what its functions get. `communicator` may be null. */
+    /** Collective: a table, and what its functions get. `communicator` may be null: of one rank. */
     InsituRun(std::shared_ptr<Context> context, const elvis_communicator* communicator, const elvis_runtime& table,
               elvis_volume* volume, const std::string& plan, std::string folder);
     InsituRun(const InsituRun&) = delete;
@@ -67,12 +68,10 @@ private:
     CommunicatorTeam m_team;
     std::string m_folder;
     std::unique_ptr<InsituVolume> m_volume;
-    /** The same, of arrays; null of a table. */
-    RankVolume* m_by_ranks = nullptr;
     std::optional<Reductions> m_reductions;
     std::optional<Prober> m_prober;
     std::map<Precision, std::unique_ptr<VolumeInParts>> m_parts;
-    /** Of a table. */
+    /** Of a volume without parts. */
     std::map<Precision, std::unique_ptr<Renderer>> m_renderers;
     /** Planned outputs stay where they are: samples refer to them. */
     std::vector<std::unique_ptr<Output>> m_outputs;

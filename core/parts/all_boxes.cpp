@@ -30,18 +30,7 @@ std::vector<double> all_boxes(const RuntimeVolume& whole, const Partition& parti
             append_boxes(whole, run, control, read);
         }
     }
-    // They come in the order of parts, and go to the places of the elements.
-    const std::vector<double> joined = team.joined(std::move(read));
-    std::vector<double> boxes(joined.size());
-    auto next = joined.begin();
-    for (std::uint32_t part = 0; part < partition.n_parts(); ++part) {
-        for (const Span& run : partition.runs(part)) {
-            const auto size = static_cast<std::ptrdiff_t>(6 * run.size());
-            std::copy(next, next + size, boxes.begin() + static_cast<std::ptrdiff_t>(6 * run.first));
-            next += size;
-        }
-    }
-    return boxes;
+    return in_order_of_elements(partition, team.joined(std::move(read)));
 }
 
 } // namespace elvis

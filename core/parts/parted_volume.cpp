@@ -43,17 +43,21 @@ private:
 
 class PartedByPlugin final : public PartedVolume {
 public:
-    explicit PartedByPlugin(const RuntimeVolume& whole) : m_whole(whole) {}
+    PartedByPlugin(const RuntimeVolume& whole, MappingReader shared_mapping)
+        : m_whole(whole), m_shared_mapping(std::move(shared_mapping)) {}
 
     const RuntimeVolume& whole() const override { return m_whole; }
     OpenedElements open(std::span<const std::uint64_t> elements) const override {
         return {selected_volume(m_whole, {elements.begin(), elements.end()}, SelectedFaces::of_elements), [] {}};
     }
+    bool opens_surroundings() const override { return !m_shared_mapping; }
     /** Those of plugins that offer it are their own affair: all processes get the same answer. */
-    bool tells_extrema(std::uint32_t, std::uint32_t) const override { return true; }
+    bool tells_extrema(std::uint32_t, std::uint32_t) const override { return !m_shared_mapping; }
+    MappingReader shared_mapping() const override { return m_shared_mapping; }
 
 private:
     const RuntimeVolume& m_whole;
+    MappingReader m_shared_mapping;
 };
 
 } // namespace
@@ -63,13 +67,16 @@ std::unique_ptr<PartedVolume> parted_native(std::shared_ptr<const native::Volume
     return std::make_unique<PartedNative>(std::move(source), whole, control, std::move(shared_mapping));
 }
 
-std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole) {
-    if (!can_select(whole)) {
-        throw Error(whole.path(), "cannot be drawn in parts: plugin " + whole.plugin().id() +
-                                      " does not say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS); without "
-                                      "--parts it can be drawn");
+void need_element_records(const RuntimeVolume& volume) {
+    if (!can_select(volume)) {
+        throw Error(volume.path(), "cannot be drawn in parts: plugin " + volume.plugin().id() +
+                                       " does not say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS)");
     }
-    return std::make_unique<PartedByPlugin>(whole);
+}
+
+std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole, MappingReader shared_mapping) {
+    need_element_records(whole);
+    return std::make_unique<PartedByPlugin>(whole, std::move(shared_mapping));
 }
 
 } // namespace elvis

@@ -35,6 +35,8 @@ public:
      * between one of them and another element have an unknown neighbour.
      */
     virtual OpenedElements open(std::span<const std::uint64_t> elements) const = 0;
+    /** Whether elements of other processes can be opened: those around a part are then drawn with it. */
+    virtual bool opens_surroundings() const { return true; }
     /** Whether the whole tells extrema of a field without looking for them in all elements. */
     virtual bool tells_extrema(std::uint32_t field, std::uint32_t time_step) const = 0;
     /** Where no process evaluates all elements: what all of them ask together. Else empty. */
@@ -48,10 +50,13 @@ public:
 std::unique_ptr<PartedVolume> parted_native(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole,
                                             const TaskControl* control, MappingReader shared_mapping = {});
 
+/** Throws Error for a plugin that does not say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS). */
+void need_element_records(const RuntimeVolume& volume);
+
 /**
- * A runtime plugin's: of it only records of the elements are asked for. The whole must outlive it. Throws Error for a plugin
- * that does not say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS).
+ * A runtime plugin's, which needs element records: of it only records of the elements are asked for. The whole must outlive it.
+ * `shared_mapping`: where each process serves elements of its own and no others.
  */
-std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole);
+std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole, MappingReader shared_mapping = {});
 
 } // namespace elvis

@@ -84,6 +84,13 @@ std::vector<std::uint64_t> Partition::elements(std::uint64_t part) const {
     return all;
 }
 
+std::uint32_t Partition::part_of(std::uint64_t element) const {
+    const auto holds = [&](const Span& run) { return run.holds(element); };
+    const auto found =
+        std::ranges::find_if(m_parts, [&](const std::vector<Span>& runs) { return std::ranges::any_of(runs, holds); });
+    return static_cast<std::uint32_t>(found - m_parts.begin());
+}
+
 std::vector<std::uint64_t> with_surroundings(std::span<const double> boxes, std::span<const std::uint64_t> part) {
     if (part.empty()) {
         return {};
@@ -115,6 +122,22 @@ std::array<double, 6> box_around(std::span<const double> boxes) {
         bound = at % 6 < 3 ? std::min(bound, boxes[at]) : std::max(bound, boxes[at]);
     }
     return around;
+}
+
+std::vector<double> in_order_of_elements(const Partition& partition, std::span<const double> by_part) {
+    std::uint64_t n_elements = 0;
+    for (std::uint32_t part = 0; part < partition.n_parts(); ++part) {
+        n_elements += partition.n_elements(part);
+    }
+    const std::size_t size = n_elements > 0 ? by_part.size() / n_elements : 0;
+    std::vector<double> ordered(by_part.size());
+    for (std::uint32_t part = 0; part < partition.n_parts(); ++part) {
+        for (const Span& run : partition.runs(part)) {
+            std::ranges::copy(by_part.first(size * run.size()), std::span(ordered).subspan(size * run.first).begin());
+            by_part = by_part.subspan(size * run.size());
+        }
+    }
+    return ordered;
 }
 
 std::vector<std::vector<std::uint64_t>> by_class(const RuntimeVolume& volume, std::span<const std::uint64_t> elements) {

@@ -42,6 +42,8 @@ public:
     std::uint64_t n_elements(std::uint64_t part) const;
     /** Ascending. */
     std::vector<std::uint64_t> elements(std::uint64_t part) const;
+    /** The part that has the element. */
+    std::uint32_t part_of(std::uint64_t element) const;
 
 private:
     std::vector<std::vector<Span>> m_parts;
@@ -55,6 +57,9 @@ std::vector<std::uint64_t> with_surroundings(std::span<const double> boxes, std:
 
 /** Of all these boxes: six numbers each. */
 std::array<double, 6> box_around(std::span<const double> boxes);
+
+/** From numbers of elements in the order of parts, as many of each, those in the order of elements. */
+std::vector<double> in_order_of_elements(const Partition& partition, std::span<const double> by_part);
 
 /** The same elements by class, counted in each class. */
 std::vector<std::vector<std::uint64_t>> by_class(const RuntimeVolume& volume, std::span<const std::uint64_t> elements);

@@ -37,6 +37,7 @@ public:
     const FieldExtrema& extrema(const FieldChoice& field, std::uint32_t time_step) override;
     FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr) override;
     double value_rounding(const FieldChoice& field, std::uint32_t time_step) override;
+    void take_minima(std::span<double> numbers) override { m_team.minimum(numbers); }
 
     /** Of each component of a field over all parts. */
     VolumeRanges::Ranges of_components(std::uint32_t field, std::uint32_t time_step);

@@ -10,29 +10,6 @@
 
 namespace elvis {
 
-namespace {
-
-/** What the whole lacks, a selection lacks, too: the host then finds the same other ways. */
-elvis_runtime table_like(const RuntimeVolume& whole) {
-    elvis_runtime table = *api::runtime_table<SelectionTable>();
-    if (!whole.has_field_ranges()) {
-        table.get_field_ranges = nullptr;
-    }
-    if (!whole.has_derivative_bounds()) {
-        table.get_field_derivative_bounds = nullptr;
-    }
-    if (!whole.has_jacobian_checks()) {
-        table.check_jacobians = nullptr;
-    }
-    if (!whole.has_evaluation()) {
-        table.evaluate_mapping = nullptr;
-        table.evaluate_field = nullptr;
-    }
-    return table;
-}
-
-} // namespace
-
 bool can_select(const RuntimeVolume& whole) {
     for (std::uint32_t index = 0; index < whole.classes().size(); ++index) {
         if ((whole.snippet(index).capabilities & ELVIS_SNIPPET_ELEMENT_RECORDS) == 0) {
@@ -47,7 +24,7 @@ RuntimeVolume selected_volume(const RuntimeVolume& whole, std::vector<std::uint6
     const auto open = [&](const elvis_host* host) {
         return reinterpret_cast<elvis_volume*>(new SelectionTable(api::Host(host), whole, std::move(elements), faces));
     };
-    return {Plugin::of_program(table_like(whole), whole.plugin().id(), apex_bounds), whole.path(), open};
+    return {Plugin::of_program(table_like<SelectionTable>(whole), whole.plugin().id(), apex_bounds), whole.path(), open};
 }
 
 } // namespace elvis

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 
 namespace elvis {
 
@@ -60,7 +62,8 @@ double value_of(std::span<const double> components, int component) {
     return std::sqrt(sum);
 }
 
-/** Of samples on the boundary, all but the smallest and the largest. */
+/** Of samples on the boundary, all but the smallest and the largest; without any the lower end is infinite, the upper
+ * -infinite. */
 FieldRange values_on_boundary(const RuntimeVolume& volume, const FieldChoice& field, std::uint32_t time_step) {
     const std::size_t n_components = volume.fields()[field.field].n_components;
     std::vector<elvis_face> faces(volume.n_faces());
@@ -80,7 +83,8 @@ FieldRange values_on_boundary(const RuntimeVolume& volume, const FieldChoice& fi
     }
     std::erase_if(samples, [](double value) { return !std::isfinite(value); });
     if (samples.empty()) {
-        return {};
+        constexpr double infinitely_large = std::numeric_limits<double>::infinity();
+        return {infinitely_large, -infinitely_large};
     }
     std::ranges::sort(samples);
     const auto n_left_out = static_cast<std::size_t>(left_out_share * static_cast<double>(samples.size()));
@@ -93,11 +97,19 @@ bool is_flat_on_boundary(const RuntimeVolume& volume, PictureRanges& ranges, con
         return false;
     }
     const FieldRange all = ranges.extrema(field, time_step).range();
-    const FieldRange seen = values_on_boundary(volume, field, time_step);
-    return seen.upper - seen.lower < flat_share * (all.upper - all.lower);
+    const FieldRange own = values_on_boundary(volume, field, time_step);
+    std::array<double, 2> seen{own.lower, -own.upper};
+    ranges.take_minima(seen);
+    return -seen[1] - seen[0] < flat_share * (all.upper - all.lower);
 }
 
 } // namespace
+
+bool has_faces(const RuntimeVolume& volume, PictureRanges& ranges) {
+    double has_none = volume.n_faces() == 0 ? 1 : 0;
+    ranges.take_minima(std::span(&has_none, 1));
+    return has_none == 0;
+}
 
 std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const RuntimeVolume& volume, PictureRanges& ranges,
                                            const FieldChoice& field, std::uint32_t time_step) {
@@ -106,7 +118,7 @@ std::vector<SceneSurface> default_surfaces(const SceneCamera& camera, const Runt
     }
     const std::array<double, 6> bounds = ranges.bounds();
     const CutPlane plane = central_plane(bounds);
-    if (volume.n_faces() == 0) {
+    if (!has_faces(volume, ranges)) {
         return {SceneSurface{plane}};
     }
     SceneSurface boundary{BoundaryFaces{}};

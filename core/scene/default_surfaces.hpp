@@ -12,6 +12,9 @@
 
 namespace elvis {
 
+/** Whether the volume tells faces of any element, whichever process has it. */
+bool has_faces(const RuntimeVolume& volume, PictureRanges& ranges);
+
 /**
  * The elements of surfaces in two dimensions. Else the boundary, where the volume tells it; where the field hardly changes on
  * most of it (0.7 of its samples), as with a boundary condition of one value, cut open: a plane through the middle, and the

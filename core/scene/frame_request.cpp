@@ -308,7 +308,7 @@ std::vector<SceneSurface> drawn_surfaces(const Scene& scene, const RuntimeVolume
     std::vector<SceneSurface> drawn;
     const bool says_none = std::ranges::all_of(scene.surfaces, is_undeformed);
     if (says_none && (volume.dimension() == 2 || !scene.volume_rendering)) {
-        if (scene.threshold && volume.dimension() == 3 && volume.n_faces() > 0) {
+        if (scene.threshold && volume.dimension() == 3 && has_faces(volume, ranges)) {
             drawn = {SceneSurface{BoundaryFaces{}}};
         } else {
             std::string label;

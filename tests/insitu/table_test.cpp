@@ -2,14 +2,22 @@
 #include <elvis/insitu.h>
 
 #include <core/base/cancel.hpp>
+#include <core/parts/part_volume.hpp>
+#include <core/parts/partition.hpp>
+#include <core/render/frame.hpp>
 #include <core/session/volume/warped.hpp>
 #include <tests/insitu/thread_ranks.hpp>
 #include <tests/support/program_folder.hpp>
 
+#include <elvis/demand.h>
 #include <elvis/native/serve.hpp>
 
 #include <catch2/catch.hpp>
+#include <hdf5.h>
 
+#include <cstdio>
+#include <functional>
+#include <numeric>
 #include <sstream>
 
 using namespace elvis;
@@ -154,19 +162,162 @@ TEST_CASE("A solver in Fortran hands over a table of functions") {
 }
 #endif
 
-TEST_CASE("A table of functions is refused on several ranks, on all with the same words") {
-    const ServedFile file;
-    const elvis_runtime table = ScaledTable::make();
-    std::vector<std::string> errors(2);
-    ThreadRanks(2).run([&](const elvis_communicator& own) {
+namespace {
+
+/** Some elements of the file, as a rank serves them. */
+class ServedPart {
+public:
+    ServedPart(const ServedFile& file, std::uint32_t rank, std::uint32_t n_ranks) {
+        auto whole = native_source(file.path("whole.h5"));
+        const Span own = share(whole->description().n_elements(), n_ranks, rank);
+        std::vector<std::uint64_t> elements(own.size());
+        std::iota(elements.begin(), elements.end(), own.first);
+        m_volume.emplace(
+            serve_native(std::make_shared<const PartVolume>(whole, std::vector<std::vector<std::uint64_t>>{elements}), "part",
+                         &m_control, &served));
+    }
+    elvis_volume* served = nullptr;
+
+private:
+    TaskControl m_control;
+    std::optional<RuntimeVolume> m_volume;
+};
+
+/** The native volume's functions. */
+elvis_runtime native_table() {
+    elvis_runtime table = *native::runtime_table();
+    table.probe = nullptr;
+    table.open = nullptr;
+    table.close = nullptr;
+    return table;
+}
+
+/** What goes wrong on each of some ranks. */
+std::vector<std::string> run_ranks(const ServedFile& file, std::uint32_t n_ranks, const std::string& plan,
+                                   const std::string& folder,
+                                   const std::function<void(std::uint32_t, elvis_runtime&)>& change = {}) {
+    std::vector<std::string> errors(n_ranks);
+    ThreadRanks(n_ranks).run([&](const elvis_communicator& own) {
+        const ServedPart part(file, own.rank, n_ranks);
         elvis_context* context = nullptr;
         elvis_insitu* insitu = nullptr;
         elvis_context_create(&file.context_options, &context);
-        CHECK(elvis_insitu_open_runtime(context, &own, &table, file.served, R"({"version": 1, "outputs": []})", nullptr,
-                                        &insitu) != ELVIS_OK);
-        errors[own.rank] = elvis_context_error(context);
+        elvis_runtime table = native_table();
+        if (change) {
+            change(own.rank, table);
+        }
+        if (elvis_insitu_open_runtime(context, &own, &table, part.served, plan.c_str(), folder.c_str(), &insitu) != ELVIS_OK ||
+            elvis_insitu_step(insitu, 0, 0) != ELVIS_OK) {
+            errors[own.rank] = elvis_context_error(context);
+        }
+        elvis_insitu_release(insitu);
         elvis_context_release(context);
     });
-    CHECK(errors[0] == errors[1]);
-    CHECK(errors[0].find("2 ranks; a table of functions is taken on one rank alone") != std::string::npos);
+    return errors;
+}
+
+/** Of a file of buffers. */
+std::vector<std::uint32_t> flags_in(const std::string& path) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), dataset = H5Dopen(file, "flags", H5P_DEFAULT);
+    const hid_t space = H5Dget_space(dataset);
+    std::vector<std::uint32_t> flags(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    CHECK(H5Dread(dataset, H5T_NATIVE_UINT32, H5S_ALL, H5S_ALL, H5P_DEFAULT, flags.data()) >= 0);
+    H5Sclose(space);
+    H5Dclose(dataset);
+    H5Fclose(file);
+    return flags;
+}
+
+} // namespace
+
+TEST_CASE("Tables of several ranks draw what elvis render draws in as many parts, and sample and integrate the same") {
+    const ServedFile file;
+    const std::string head =
+        R"({"version": 1, "volume": {"path": "../whole.h5"}, "image": {"size": [64, 48]}, "color_map": {"range": [-1, 1]})";
+    file.write("scenes/all.json",
+               head + R"(, "surfaces": [{"type": "plane", "plane": [1, 0.2, 0.1, 0.1]}, {"type": "isosurface", "values": [0.3]},
+        {"type": "boundary", "opacity": 0.3}], "volume_rendering": {"density": [[-2, 0], [2, 1]]}})");
+    file.write("scenes/default.json", head + "}");
+    const std::string plan =
+        R"~({"version": 1, "outputs": [{"name": "all", "scene": "all.json"}, {"name": "default", "scene": "default.json"},
+        {"name": "points", "points": [[0.3, 0.1, 0.2], [-0.4, 0.6, -0.7], [0.1, -0.5, 0.8]]},
+        {"name": "sums", "quantities": ["integral(waves^2)", "maximum(waves)"]}]})~";
+    for (const std::uint32_t n_ranks : {1u, 2u, 3u}) {
+        const std::string folder = file.path("scenes");
+        REQUIRE(run_ranks(file, n_ranks, plan, folder) == std::vector<std::string>(n_ranks));
+        for (const std::string name : {"all", "default"}) {
+            INFO(name << " on " << n_ranks);
+            const std::string parts = n_ranks > 1 ? " --parts " + std::to_string(n_ranks) : "";
+            REQUIRE(file.run("render scenes/" + name + ".json" + parts + " -o " + name + ".png").status == 0);
+            CHECK(file.read("scenes/" + name + "_000000.png") == file.read(name + ".png"));
+        }
+    }
+    // Rows of one, two and three ranks, one after the other in the same tables.
+    for (const auto& [name, n_rows] : {std::pair{"points.csv", 3}, std::pair{"sums.csv", 1}}) {
+        std::istringstream lines(file.read(std::string("scenes/") + name));
+        std::string title;
+        std::getline(lines, title);
+        std::vector<std::string> rows;
+        for (std::string row; std::getline(lines, row);) {
+            rows.push_back(row);
+        }
+        REQUIRE(rows.size() == static_cast<std::size_t>(3 * n_rows));
+        for (std::size_t at = static_cast<std::size_t>(n_rows); at < rows.size(); ++at) {
+            CHECK(last_number(rows[at]) == Approx(last_number(rows[at % static_cast<std::size_t>(n_rows)])).epsilon(1e-3));
+        }
+    }
+}
+
+TEST_CASE("Along borders between ranks that serve their own elements lines are open, and those that are drawn are right") {
+    const ServedFile file;
+    file.write(
+        "scenes/lines.json",
+        R"({"version": 1, "volume": {"path": "../whole.h5"}, "image": {"size": [160, 120]}, "color_map": {"range": [-1, 1]},
+        "surfaces": [{"type": "plane", "plane": [1, 0.2, 0.1, 0.1], "mesh_lines": {}, "contours": {"count": 7}}]})");
+    REQUIRE(file.run("render scenes/lines.json -o whole.png --buffers whole_buffers.h5").status == 0);
+    const std::string plan = R"({"version": 1, "outputs": [{"name": "lines", "scene": "lines.json", "buffers": true}]})";
+    REQUIRE(run_ranks(file, 3, plan, file.path("scenes")) == std::vector<std::string>(3));
+    const std::vector<std::uint32_t> whole = flags_in(file.path("whole_buffers.h5")),
+                                     ranks = flags_in(file.path("scenes/lines_000000.h5"));
+    REQUIRE(whole.size() == ranks.size());
+    constexpr std::uint32_t lines = pixel_flag::contour | pixel_flag::mesh_line;
+    constexpr std::uint32_t open = pixel_flag::contour_undecided | pixel_flag::mesh_line_undecided;
+    std::size_t n_lines = 0, n_silent = 0, n_open = 0;
+    for (std::size_t pixel = 0; pixel < whole.size(); ++pixel) {
+        n_lines += (whole[pixel] & lines) != 0 ? 1 : 0;
+        n_open += (ranks[pixel] & open) != 0 ? 1 : 0;
+        n_silent += ((whole[pixel] ^ ranks[pixel]) & lines) != 0 && ((whole[pixel] | ranks[pixel]) & open) == 0 ? 1 : 0;
+    }
+    std::printf("lines on three ranks: %zu pixels with lines, %zu open, %zu others than in the whole and not flagged\n",
+                n_lines, n_open, n_silent);
+    CHECK(n_lines > 1000);
+    CHECK(n_silent == 0);
+    CHECK(n_open < n_lines);
+}
+
+TEST_CASE("Tables that cannot be those of one volume are refused on all ranks with the same words") {
+    const ServedFile file;
+    const std::string plan = R"({"version": 1, "outputs": []})";
+    const auto refused = [&](const std::string& why, const std::function<void(std::uint32_t, elvis_runtime&)>& change) {
+        const std::vector<std::string> errors = run_ranks(file, 2, plan, ".", change);
+        INFO(errors[0]);
+        CHECK(errors[0] == errors[1]);
+        CHECK(errors[0].find(why) != std::string::npos);
+    };
+    refused("are not those of rank 0", [](std::uint32_t rank, elvis_runtime& table) {
+        table.get_field_ranges = rank == 1 ? nullptr : table.get_field_ranges;
+    });
+    refused("does not say that records belong to elements", [](std::uint32_t, elvis_runtime& table) {
+        table.get_snippet = [](elvis_volume* volume, std::uint32_t element_class, elvis_snippet* out) {
+            const elvis_result result = native::runtime_table()->get_snippet(volume, element_class, out);
+            out->capabilities &= ~std::uint32_t{ELVIS_SNIPPET_ELEMENT_RECORDS};
+            return result;
+        };
+    });
+    refused("two elements have the number 0", [](std::uint32_t, elvis_runtime& table) {
+        table.get_element_numbers = [](elvis_volume*, std::uint64_t first, std::uint64_t count, std::int64_t* numbers) {
+            std::iota(numbers, numbers + count, static_cast<std::int64_t>(first));
+            return elvis_result{ELVIS_OK};
+        };
+    });
 }

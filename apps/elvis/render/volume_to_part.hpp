@@ -25,7 +25,7 @@ struct VolumeToPart {
     std::shared_ptr<const native::VolumeSource> source;
     RuntimeVolume whole;
 
-    /** This and `control` must outlive it. Throws Error for a plugin whose elements cannot be chosen. */
+    /** This and `control` must outlive it. Throws Error for a plugin without element records. */
     std::unique_ptr<PartedVolume> parted(const TaskControl& control) const {
         return source ? parted_native(source, whole, &control) : parted_by_plugin(whole);
     }

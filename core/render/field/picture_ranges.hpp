@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace elvis {
@@ -29,6 +30,9 @@ public:
     virtual FieldRange range(const FieldChoice& field, std::uint32_t time_step, elvis_certainty* certainty = nullptr) = 0;
     /** About what rounding costs its values; 0 where the range is certainly more. */
     virtual double value_rounding(const FieldChoice& field, std::uint32_t time_step) = 0;
+
+    /** Of numbers that follow from elements of which other processes have others: each becomes the smallest that one has. */
+    virtual void take_minima(std::span<double>) {}
 };
 
 } // namespace elvis

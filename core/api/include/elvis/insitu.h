@@ -107,13 +107,19 @@ ELVIS_EXPORT elvis_result elvis_insitu_open(elvis_context* context, const elvis_
  * elvis_data_from_runtime. Nothing is copied. Both stay valid until the handle is released; the functions are called inside
  * elvis_insitu_open_runtime and elvis_insitu_step, from threads of the library, too.
  *
- * What works: one rank, which serves the whole volume, of one time step: the solver's present one. All outputs of plans, with
- * the same limits. Bounds, faces, numbers and geometry stay; all fields are taken for changed in each step in which something
- * is made. `communicator` may be NULL: a program of one process.
+ * What works: volumes of one time step, the solver's present one, and all outputs of plans, with the same limits. Bounds,
+ * faces, numbers and geometry stay; all fields are taken for changed in each step in which something is made.
+ * elvis_insitu_set_values is refused, and elvis_insitu_report.read_bytes is 0. `communicator` may be NULL: a program of one
+ * process.
  *
- * What does not: several ranks. A rank draws its elements together with those around them, which lie on other ranks, and
- * records whose meaning only the solver's functions know cannot be moved there. With more ranks than one all of them get
- * ELVIS_ERROR_INVALID_ARGUMENT. elvis_insitu_set_values is refused, and elvis_insitu_report.read_bytes is 0.
+ * On several ranks each serves its own elements, at least one, and no others:
+ *  - Classes, fields, buffers, snippets and boundary groups are the same on all ranks, and so is what buffers for all classes
+ * hold. A class may be without elements on some of them.
+ *  - Snippets have ELVIS_SNIPPET_ELEMENT_RECORDS (demand.h).
+ *  - Numbers of elements, if the table tells them, are those of the whole mesh. Faces to elements of other ranks have an
+ * unknown neighbour.
+ *  - Records whose meaning only a rank's own functions know are not moved: a part is drawn without the elements around it.
+ *    Pictures are those of elvis_insitu_open, but lines are open (flags 2 and 512) in pixels along borders between ranks.
  *
  * Errors besides those of elvis_insitu_open: the table lacks a function that volumes need, or a function of it fails.
  */
