@@ -15,6 +15,7 @@
 #include <catch2/catch.hpp>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <numeric>
@@ -164,17 +165,15 @@ TEST_CASE("A solver in Fortran hands over a table of functions") {
 
 namespace {
 
+using Elements = std::vector<std::uint64_t>;
+
 /** Some elements of the file, as a rank serves them. */
 class ServedPart {
 public:
-    ServedPart(const ServedFile& file, std::uint32_t rank, std::uint32_t n_ranks) {
-        auto whole = native_source(file.path("whole.h5"));
-        const Span own = share(whole->description().n_elements(), n_ranks, rank);
-        std::vector<std::uint64_t> elements(own.size());
-        std::iota(elements.begin(), elements.end(), own.first);
-        m_volume.emplace(
-            serve_native(std::make_shared<const PartVolume>(whole, std::vector<std::vector<std::uint64_t>>{elements}), "part",
-                         &m_control, &served));
+    ServedPart(const ServedFile& file, const Elements& elements) {
+        m_volume.emplace(serve_native(
+            std::make_shared<const PartVolume>(native_source(file.path("whole.h5")), std::vector<Elements>{elements}), "part",
+            &m_control, &served));
     }
     elvis_volume* served = nullptr;
 
@@ -182,6 +181,18 @@ private:
     TaskControl m_control;
     std::optional<RuntimeVolume> m_volume;
 };
+
+constexpr std::uint64_t n_elements_in_file = 36;
+
+/** Of each rank: as `elvis render --parts` has them. */
+std::vector<Elements> shares(std::uint32_t n_ranks) {
+    const Partition partition = Partition::in_shares(n_elements_in_file, n_ranks);
+    std::vector<Elements> all;
+    for (std::uint32_t rank = 0; rank < n_ranks; ++rank) {
+        all.push_back(partition.elements(rank));
+    }
+    return all;
+}
 
 /** The native volume's functions. */
 elvis_runtime native_table() {
@@ -192,13 +203,13 @@ elvis_runtime native_table() {
     return table;
 }
 
-/** What goes wrong on each of some ranks. */
-std::vector<std::string> run_ranks(const ServedFile& file, std::uint32_t n_ranks, const std::string& plan,
+/** What goes wrong on ranks that have these elements. */
+std::vector<std::string> run_ranks(const ServedFile& file, const std::vector<Elements>& elements, const std::string& plan,
                                    const std::string& folder,
                                    const std::function<void(std::uint32_t, elvis_runtime&)>& change = {}) {
-    std::vector<std::string> errors(n_ranks);
-    ThreadRanks(n_ranks).run([&](const elvis_communicator& own) {
-        const ServedPart part(file, own.rank, n_ranks);
+    std::vector<std::string> errors(elements.size());
+    ThreadRanks(static_cast<std::uint32_t>(elements.size())).run([&](const elvis_communicator& own) {
+        const ServedPart part(file, elements[own.rank]);
         elvis_context* context = nullptr;
         elvis_insitu* insitu = nullptr;
         elvis_context_create(&file.context_options, &context);
@@ -244,7 +255,7 @@ TEST_CASE("Tables of several ranks draw what elvis render draws in as many parts
         {"name": "sums", "quantities": ["integral(waves^2)", "maximum(waves)"]}]})~";
     for (const std::uint32_t n_ranks : {1u, 2u, 3u}) {
         const std::string folder = file.path("scenes");
-        REQUIRE(run_ranks(file, n_ranks, plan, folder) == std::vector<std::string>(n_ranks));
+        REQUIRE(run_ranks(file, shares(n_ranks), plan, folder) == std::vector<std::string>(n_ranks));
         for (const std::string name : {"all", "default"}) {
             INFO(name << " on " << n_ranks);
             const std::string parts = n_ranks > 1 ? " --parts " + std::to_string(n_ranks) : "";
@@ -268,6 +279,23 @@ TEST_CASE("Tables of several ranks draw what elvis render draws in as many parts
     }
 }
 
+TEST_CASE("Ranks show the same where a scene names no surfaces, though one of them has no boundary") {
+    const ServedFile file;
+    file.write("scenes/default.json", R"({"version": 1, "volume": {"path": "../whole.h5"}, "image": {"size": [64, 48]}})");
+    REQUIRE(file.run("render scenes/default.json -o whole.png").status == 0);
+    // Two of the 4 x 3 x 3 elements lie inside.
+    const Elements inner{17, 18};
+    Elements others;
+    for (std::uint64_t element = 0; element < n_elements_in_file; ++element) {
+        if (!std::ranges::binary_search(inner, element)) {
+            others.push_back(element);
+        }
+    }
+    const std::string plan = R"({"version": 1, "outputs": [{"name": "default", "scene": "default.json"}]})";
+    REQUIRE(run_ranks(file, {inner, others}, plan, file.path("scenes")) == std::vector<std::string>(2));
+    CHECK(file.read("scenes/default_000000.png") == file.read("whole.png"));
+}
+
 TEST_CASE("Along borders between ranks that serve their own elements lines are open, and those that are drawn are right") {
     const ServedFile file;
     file.write(
@@ -276,7 +304,7 @@ TEST_CASE("Along borders between ranks that serve their own elements lines are o
         "surfaces": [{"type": "plane", "plane": [1, 0.2, 0.1, 0.1], "mesh_lines": {}, "contours": {"count": 7}}]})");
     REQUIRE(file.run("render scenes/lines.json -o whole.png --buffers whole_buffers.h5").status == 0);
     const std::string plan = R"({"version": 1, "outputs": [{"name": "lines", "scene": "lines.json", "buffers": true}]})";
-    REQUIRE(run_ranks(file, 3, plan, file.path("scenes")) == std::vector<std::string>(3));
+    REQUIRE(run_ranks(file, shares(3), plan, file.path("scenes")) == std::vector<std::string>(3));
     const std::vector<std::uint32_t> whole = flags_in(file.path("whole_buffers.h5")),
                                      ranks = flags_in(file.path("scenes/lines_000000.h5"));
     REQUIRE(whole.size() == ranks.size());
@@ -299,7 +327,7 @@ TEST_CASE("Tables that cannot be those of one volume are refused on all ranks wi
     const ServedFile file;
     const std::string plan = R"({"version": 1, "outputs": []})";
     const auto refused = [&](const std::string& why, const std::function<void(std::uint32_t, elvis_runtime&)>& change) {
-        const std::vector<std::string> errors = run_ranks(file, 2, plan, ".", change);
+        const std::vector<std::string> errors = run_ranks(file, shares(2), plan, ".", change);
         INFO(errors[0]);
         CHECK(errors[0] == errors[1]);
         CHECK(errors[0].find(why) != std::string::npos);
