@@ -49,6 +49,10 @@ TEST_CASE("Percentiles are of the volume, not of elements or pixels") {
     // 12000 points: a standard deviation of 0.0055 at these percentiles.
     CHECK(std::abs(lower + 0.8) < 0.03);
     CHECK(std::abs(upper - 0.8) < 0.03);
+    REQUIRE(
+        place.run("render box.h5 --range 10%,90% --parts 3 --field x --cut-plane 0,0,1,0.1 --size 8x8 -o parts.png").status ==
+        0);
+    CHECK(place.read("parts.png") == place.read("x.png"));
     CHECK(place.run("render box.h5 --range 2%,98 " + rest).status == 2);
     CHECK(place.run("render box.h5 --range 98%,2% " + rest).status == 2);
     CHECK(place.run("render box.h5 --range 2%,102% " + rest).status == 2);
@@ -57,6 +61,8 @@ TEST_CASE("Percentiles are of the volume, not of elements or pixels") {
     REQUIRE(place.run("render box.h5 --time-steps 0:2:2" + view + "steps").status == 0);
     REQUIRE(place.run("render box.h5 --time-step 2" + view + "one.png").status == 0);
     CHECK(place.read("steps/frame_0001.png") != place.read("one.png"));
+    REQUIRE(place.run("render box.h5 --parts 2 --time-steps 0:2:2" + view + "part_steps").status == 0);
+    CHECK(place.read("part_steps/frame_0001.png") == place.read("steps/frame_0001.png"));
 }
 
 TEST_CASE("Several scenes are drawn by one process, each as if alone") {

@@ -37,11 +37,9 @@ void check_parts(const RenderArguments& arguments, bool is_animation) {
     number_of_parts(arguments.parts);
     for (const auto& [option, is_given] :
          {std::pair{"--devices", !arguments.devices.empty()}, std::pair{"--repeat", arguments.repeat > 0},
-          std::pair{"--share", !arguments.share.empty()}, std::pair{"--range", percentiles_of(arguments).has_value()}}) {
+          std::pair{"--share", !arguments.share.empty()}}) {
         if (is_given) {
-            const bool is_range = std::string(option) == "--range";
-            throw UsageError(option,
-                             is_range ? "in percent does not go with --parts: give values" : "does not go with --parts");
+            throw UsageError(option, "does not go with --parts");
         }
     }
     if (is_animation && !arguments.stats.empty()) {

@@ -1,6 +1,7 @@
 #include "render_parts.hpp"
 #include "part_choice.hpp"
 #include "parts_film.hpp"
+#include "percentile_range.hpp"
 #include "volume_to_part.hpp"
 
 #include <core/base/milliseconds.hpp>
@@ -77,11 +78,19 @@ void render_parts(const RenderArguments& arguments, const scene& shown) {
     const Clock::time_point start = Clock::now();
     OneProcess alone;
     DivisibleTeam& team = arguments.team != nullptr ? *arguments.team : static_cast<DivisibleTeam&>(alone);
-    Scene scene = scene_of(nlohmann::json::parse(shown.json()), arguments.is_scene ? arguments.input : "scene");
+    auto text = nlohmann::json::parse(shown.json());
+    const std::string name = arguments.is_scene ? arguments.input : "scene";
+    Scene scene = scene_of(text, name);
     need_parts_can_draw(scene);
     const TaskControl control;
     const PluginRegistry plugins;
     const VolumeToPart volume = open_to_part(scene, plugins, team, control);
+    if (const auto parts = percentiles_of(arguments)) {
+        const std::vector<double> range = percentiles_of_first(scene, volume.whole, *parts, team, control);
+        take_range(range, text);
+        scene = scene_of(text, name);
+        spdlog::info("range: {:.6g} to {:.6g}", range[0], range[1]);
+    }
     scene.volume = volume.whole.path();
     const Precision precision = scene.precision.value_or(Precision::float32);
     const Device device(arguments.device, arguments.validation);

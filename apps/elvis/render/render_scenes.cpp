@@ -1,6 +1,7 @@
 #include "render_scenes.hpp"
 #include "output_endings.hpp"
 #include "part_choice.hpp"
+#include "percentile_range.hpp"
 #include "render_animation.hpp"
 #include "render_parts.hpp"
 #include "render_session.hpp"
@@ -186,14 +187,9 @@ void choose_range(Wanted& wanted, const data& volume, const task& watch) {
         return;
     }
     const std::vector<double> range = volume.percentiles(wanted.shown, {(*parts)[0], (*parts)[1]}, watch);
-    if (!(range[0] < range[1])) {
-        throw Error("--range", "both percentiles are " + std::to_string(range[0]) + ": colours need a range of numbers here");
-    }
-    if (!(range[0] > 0) &&
-        json::parse(wanted.shown.json()).value(json::json_pointer("/color_map/scale"), "") == "logarithmic") {
-        throw Error("--range", "the lower percentile is not above 0, as it must be on a logarithmic scale");
-    }
-    wanted.shown.set("/color_map/range", json(range).dump());
+    json with_range = json::parse(wanted.shown.json());
+    take_range(range, with_range);
+    wanted.shown.set("/color_map/range", with_range["color_map"]["range"].dump());
     spdlog::info("range: {:.6g} to {:.6g}", range[0], range[1]);
 }
 
