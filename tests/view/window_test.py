@@ -550,7 +550,7 @@ def main(elvis, folder):
     display = Display()
     window = None
     try:
-        window = Window(elvis, display, folder, ["--size", "1280x800", "--validation"])
+        window = Window(elvis, display, folder, ["--size", "1024x680", "--validation"])
         opens_by_dialog(window)
         orbits(window)
         zooms_to_the_cursor(window)
