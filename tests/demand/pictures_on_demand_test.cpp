@@ -90,13 +90,9 @@ TEST_CASE("Planes show the same bits whether all elements are there or those tha
     for (const NamedKeys& picture : plane_pictures) {
         compare(mixed.name, single, picture);
     }
-    DemandStage in_double(mixed.description, Precision::float64);
-    compare(mixed.name, in_double, plane_pictures[0]);
-    for (const NamedVolume& volume : std::span(all_volumes).subspan(1, 2)) {
-        DemandStage stage(volume.description);
-        for (const NamedKeys& picture : std::span(plane_pictures).first(2)) {
-            compare(volume.name, stage, picture);
-        }
+    DemandStage in_double(all_volumes[1].description, Precision::float64);
+    for (const NamedKeys& picture : std::span(plane_pictures).first(2)) {
+        compare(all_volumes[1].name, in_double, picture);
     }
 }
 
