@@ -13,7 +13,7 @@ general = ("core/base/", "core/camera/", "core/late_library/")
 # A window has a Vulkan surface of its own to show pictures in.
 of_window = (*general, "core/vulkan/")
 # Drawing in parts of a volume or from some of its elements, and what many processes do together: the library has no word for it.
-parts = {"native_volume", "part_choice", "parts_film", "render_parts", "render_on_demand", "convert_together"}
+parts = {"part_choice", "parts_film", "render_parts", "volume_to_part", "render_on_demand", "convert_together"}
 
 source = Path(sys.argv[1])
 n_files = 0

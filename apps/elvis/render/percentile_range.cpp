@@ -1,10 +1,6 @@
 #include "percentile_range.hpp"
 
 #include <core/base/error.hpp>
-#include <core/probe/probe.hpp>
-#include <core/session/animation_pictures.hpp>
-#include <core/session/volume/describe_volume.hpp>
-#include <core/session/volume/field_samples.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -20,19 +16,6 @@ void take_range(std::span<const double> range, nlohmann::json& scene) {
         throw Error("--range", "the lower percentile is not above 0, as it must be on a logarithmic scale");
     }
     scene["color_map"]["range"] = range;
-}
-
-std::vector<double> percentiles_of_first(const Scene& scene, const RuntimeVolume& whole, const std::array<double, 2>& parts,
-                                         Team& team, const TaskControl& control) {
-    std::vector<double> found;
-    if (team.is_first()) {
-        need_samples(whole);
-        Scene shown = scene;
-        shown.range_steps = steps_of_animation(shown, whole);
-        Prober prober(whole);
-        found = percentiles(prober, whole, bounds_of(whole).first, shown, parts, control);
-    }
-    return team.of_first(std::move(found));
 }
 
 } // namespace elvis::commands

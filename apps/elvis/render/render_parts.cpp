@@ -7,13 +7,18 @@
 #include <core/base/milliseconds.hpp>
 #include <core/base/output_file.hpp>
 #include <core/parts/draw_in_parts.hpp>
+#include <core/probe/probe.hpp>
 #include <core/scene/output/buffers_file.hpp>
 #include <core/scene/output/png_file.hpp>
+#include <core/session/animation_pictures.hpp>
 #include <core/session/picture_stats.hpp>
+#include <core/session/volume/describe_volume.hpp>
+#include <core/session/volume/field_samples.hpp>
 
 #include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <utility>
@@ -70,6 +75,20 @@ void name_devices(const Device& device, Team& team) {
         spdlog::info("rank {} draws with {}", rank,
                      std::string_view(reinterpret_cast<const char*>(names[rank].data()), names[rank].size()));
     }
+}
+
+/** Values below which these parts of the volume lie, over all time steps that the scene shows; found by the first. */
+std::vector<double> percentiles_of_first(const Scene& scene, const RuntimeVolume& whole, const std::array<double, 2>& parts,
+                                         Team& team, const TaskControl& control) {
+    std::vector<double> found;
+    if (team.is_first()) {
+        need_samples(whole);
+        Scene shown = scene;
+        shown.range_steps = steps_of_animation(shown, whole);
+        Prober prober(whole);
+        found = percentiles(prober, whole, bounds_of(whole).first, shown, parts, control);
+    }
+    return team.of_first(std::move(found));
 }
 
 } // namespace
