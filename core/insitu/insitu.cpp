@@ -31,14 +31,14 @@ elvis_result elvis_insitu_open(elvis_context* context, const elvis_communicator*
 }
 
 elvis_result elvis_insitu_open_runtime(elvis_context* context, const elvis_communicator* communicator,
-                                       const elvis_runtime* runtime, elvis_volume* volume, elvis_string plan,
-                                       elvis_string folder, elvis_insitu** insitu) {
+                                       const elvis_runtime* runtime, elvis_volume* volume, const uint8_t* is_own,
+                                       elvis_string plan, elvis_string folder, elvis_insitu** insitu) {
     return call(context, [&] {
         need(insitu, "insitu");
         *insitu = nullptr;
         need(plan, "plan");
-        auto run = std::make_unique<InsituRun>(context->state, communicator, known_part(runtime, "runtime"), volume, plan,
-                                               folder != nullptr ? folder : ".");
+        auto run = std::make_unique<InsituRun>(context->state, communicator, known_part(runtime, "runtime"), volume, is_own,
+                                               plan, folder != nullptr ? folder : ".");
         *insitu = new elvis_insitu{context->state, std::move(run)};
     });
 }

@@ -4,6 +4,7 @@
 #include <core/plugin_host/plugin.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace elvis::library {
@@ -20,29 +21,41 @@ RankTable::RankTable(const api::Host& host, const std::string& path, const std::
 
 RankTable::RankTable(const api::Host& host, const elvis::RuntimeVolume& served, ElementsOfTable elements)
     : HandedOnTable(host, served, elements.n_elements), m_elements(std::move(elements)) {
+    for (std::uint64_t there = 0; there < m_elements.served.size(); ++there) {
+        m_places.push_back({m_elements.served[there], there});
+    }
+    std::ranges::sort(m_places, {}, &Place::element);
     std::vector<elvis_face> faces;
     read_faces([&](elvis_face face) {
-        face.element = number_here(face.element);
-        face.neighbour = number_here(face.neighbour);
+        face.element = place_here(face.element);
+        face.neighbour = place_here(face.neighbour);
         faces.push_back(face);
     });
     set_faces(std::move(faces));
 }
 
-std::int64_t RankTable::number_here(std::int64_t element) const {
-    return element < 0 ? element : static_cast<std::int64_t>(m_elements.own[static_cast<std::size_t>(element)]);
+std::int64_t RankTable::place_here(std::int64_t served) const {
+    return served < 0 ? served : static_cast<std::int64_t>(m_elements.served[static_cast<std::size_t>(served)]);
 }
 
-bool RankTable::is_known(std::uint64_t element) const { return std::ranges::binary_search(m_elements.own, element); }
+bool RankTable::is_known(std::uint64_t element) const {
+    return std::ranges::binary_search(m_places, element, {}, &Place::element);
+}
 
 void RankTable::for_each_run(std::uint64_t first, std::uint64_t count, const Read& read) const {
-    const auto begin = std::ranges::lower_bound(m_elements.own, first);
-    const auto end = std::ranges::lower_bound(begin, m_elements.own.end(), first + count);
+    const auto begin = std::ranges::lower_bound(m_places, first, {}, &Place::element);
+    const auto end = std::ranges::lower_bound(begin, m_places.end(), first + count, {}, &Place::element);
     if (static_cast<std::uint64_t>(end - begin) != count) {
-        throw Error(asked().path(), "an element of another rank is asked for");
+        throw Error(asked().path(), "an element is asked for that this rank does not serve");
     }
-    // Elements that follow each other here do so there.
-    read(static_cast<std::uint64_t>(begin - m_elements.own.begin()), count, 0);
+    for (auto next = begin; next != end;) {
+        auto last = next + 1;
+        while (last != end && last->there == std::prev(last)->there + 1) {
+            ++last;
+        }
+        read(next->there, static_cast<std::uint64_t>(last - next), next->element - first);
+        next = last;
+    }
 }
 
 void RankTable::get_element_numbers(std::uint64_t first, std::span<std::int64_t> numbers) {

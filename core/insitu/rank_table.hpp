@@ -4,10 +4,10 @@
  */
 #pragma once
 
-#include <core/parts/partition.hpp>
 #include <core/plugin_host/handed_on_table.hpp>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,13 +17,14 @@ namespace elvis::library {
 struct ElementsOfTable {
     /** By class. */
     std::vector<std::uint64_t> n_elements;
-    /** This rank's, ascending: in the order in which its functions count them. */
-    std::vector<std::uint64_t> own;
+    /** Of each element that the rank's functions serve, as they count them: which one of all it is. */
+    std::vector<std::uint64_t> served;
     /** Of all, as people know them. */
     std::vector<std::int64_t> numbers;
 };
 
-/** All elements, of which this rank's alone can be asked about; values of others are NaN. Faces are those of own elements. */
+/** All elements, of which those that the rank serves can be asked about; values of others are NaN. Faces are those of served
+ * ones. */
 class RankTable : public HandedOnTable {
 public:
     /** Not asked: volumes are made by open_rank_table(). */
@@ -34,11 +35,18 @@ public:
     void get_element_numbers(std::uint64_t first, std::span<std::int64_t> numbers);
 
 private:
+    /** An element, and where the rank's functions have it. */
+    struct Place {
+        std::uint64_t element, there;
+    };
+
     void for_each_run(std::uint64_t first, std::uint64_t count, const Read& read) const override;
     bool is_known(std::uint64_t element) const override;
-    std::int64_t number_here(std::int64_t element) const;
+    std::int64_t place_here(std::int64_t served) const;
 
     ElementsOfTable m_elements;
+    /** By element. */
+    std::vector<Place> m_places;
 };
 
 /** `served` is what the rank's own functions serve, and must outlive it. */

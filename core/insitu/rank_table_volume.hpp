@@ -17,14 +17,18 @@
 
 namespace elvis::library {
 
-/** Parts have no elements around them: what only the other rank's functions understand stays there. */
+/** Elements around a rank's own are there if its own functions serve them, too: what they mean only those know. */
 class RankTableVolume final : public InsituVolume {
 public:
-    /** Collective. `name` stands for the volume in messages. The team must outlive it. Throws Error. */
-    RankTableVolume(const elvis_runtime& table, elvis_volume* volume, const std::string& name, CommunicatorTeam& team);
+    /**
+     * Collective. `is_own`: of each element that the table serves whether it is the rank's own; null if all are. `name` stands
+     * for the volume in messages. The team must outlive it. Throws Error.
+     */
+    RankTableVolume(const elvis_runtime& table, elvis_volume* volume, const std::uint8_t* is_own, const std::string& name,
+                    CommunicatorTeam& team);
 
     const RuntimeVolume& whole() const override { return *m_whole; }
-    const RuntimeVolume* own() const override { return &*m_own; }
+    const RuntimeVolume* own() const override { return m_own ? &m_own->volume : nullptr; }
     const PartedVolume* parted() const override { return m_parted.get(); }
     const Partition* partition() const override { return &*m_partition; }
 
@@ -40,8 +44,7 @@ private:
     std::optional<Partition> m_partition;
     std::optional<RuntimeVolume> m_whole;
     std::unique_ptr<PartedVolume> m_parted;
-    /** As elements are numbered in the whole. */
-    std::optional<RuntimeVolume> m_own;
+    std::optional<OpenedElements> m_own;
 };
 
 } // namespace elvis::library

@@ -14,6 +14,7 @@
 #include <core/scene/output/png_file.hpp>
 #include <core/vulkan/device_choice.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -71,19 +72,24 @@ InsituRun::InsituRun(std::shared_ptr<Context> context, const elvis_communicator*
 }
 
 InsituRun::InsituRun(std::shared_ptr<Context> context, const elvis_communicator* communicator, const elvis_runtime& table,
-                     elvis_volume* volume, const std::string& plan, std::string folder)
+                     elvis_volume* volume, const std::uint8_t* is_own, const std::string& plan, std::string folder)
     : m_context(std::move(context)), m_team(communicator != nullptr ? communicator : &one_rank), m_folder(std::move(folder)) {
     const auto start = std::chrono::steady_clock::now();
-    m_team.together([&] { open_table(table, volume, plan); });
+    m_team.together([&] { open_table(table, volume, is_own, plan); });
     m_opened = std::chrono::steady_clock::now();
     m_report.open_seconds = seconds_since(start);
 }
 
-void InsituRun::open_table(const elvis_runtime& table, elvis_volume* volume, const std::string& plan) {
+void InsituRun::open_table(const elvis_runtime& table, elvis_volume* volume, const std::uint8_t* is_own,
+                           const std::string& plan) {
     if (m_team.size() > 1) {
-        m_volume = std::make_unique<RankTableVolume>(table, volume, volume_name, m_team);
+        m_volume = std::make_unique<RankTableVolume>(table, volume, is_own, volume_name, m_team);
     } else {
         m_volume = std::make_unique<TableVolume>(table, volume, volume_name);
+        const std::uint64_t n_elements = m_volume->whole().n_elements();
+        if (is_own != nullptr && std::any_of(is_own, is_own + n_elements, [](std::uint8_t own) { return own == 0; })) {
+            throw InvalidArgument("is_own", "the only rank has elements that are not its own");
+        }
     }
     open_plan(plan);
 }

@@ -30,7 +30,7 @@ public:
               const std::string& plan, std::string folder);
     /** Collective: a table, and what its functions get. `communicator` may be null: of one rank. */
     InsituRun(std::shared_ptr<Context> context, const elvis_communicator* communicator, const elvis_runtime& table,
-              elvis_volume* volume, const std::string& plan, std::string folder);
+              elvis_volume* volume, const std::uint8_t* is_own, const std::string& plan, std::string folder);
     InsituRun(const InsituRun&) = delete;
     InsituRun& operator=(const InsituRun&) = delete;
 
@@ -48,7 +48,7 @@ private:
     };
 
     void open_plan(const std::string& plan);
-    void open_table(const elvis_runtime& table, elvis_volume* volume, const std::string& plan);
+    void open_table(const elvis_runtime& table, elvis_volume* volume, const std::uint8_t* is_own, const std::string& plan);
     void add(PlannedOutput planned);
     void check_order(std::uint64_t step, double time) const;
     void make(std::uint64_t step, double time);

@@ -188,7 +188,8 @@ void VolumeInParts::Impl::open_bare_parts() {
 
 void VolumeInParts::Impl::open_part(std::uint32_t part, const std::array<double, 6>& bounds) {
     const std::vector<std::uint64_t> own = partition.elements(part);
-    const std::vector<std::uint64_t> elements = volume.opens_surroundings() ? with_surroundings(boxes, own) : own;
+    std::vector<std::uint64_t> elements = with_surroundings(boxes, own);
+    std::erase_if(elements, [&](std::uint64_t element) { return !volume.can_open(element); });
     parts.push_back({part, OwnNumbers(whole, partition.runs(part)), opened(elements, bounds)});
     renderers.push_back(&parts.back().elements->renderer());
     ++work.n_parts;

@@ -43,21 +43,17 @@ private:
 
 class PartedByPlugin final : public PartedVolume {
 public:
-    PartedByPlugin(const RuntimeVolume& whole, MappingReader shared_mapping)
-        : m_whole(whole), m_shared_mapping(std::move(shared_mapping)) {}
+    explicit PartedByPlugin(const RuntimeVolume& whole) : m_whole(whole) {}
 
     const RuntimeVolume& whole() const override { return m_whole; }
     OpenedElements open(std::span<const std::uint64_t> elements) const override {
         return {selected_volume(m_whole, {elements.begin(), elements.end()}, SelectedFaces::of_elements), [] {}};
     }
-    bool opens_surroundings() const override { return !m_shared_mapping; }
     /** Those of plugins that offer it are their own affair: all processes get the same answer. */
-    bool tells_extrema(std::uint32_t, std::uint32_t) const override { return !m_shared_mapping; }
-    MappingReader shared_mapping() const override { return m_shared_mapping; }
+    bool tells_extrema(std::uint32_t, std::uint32_t) const override { return true; }
 
 private:
     const RuntimeVolume& m_whole;
-    MappingReader m_shared_mapping;
 };
 
 } // namespace
@@ -74,9 +70,9 @@ void need_element_records(const RuntimeVolume& volume) {
     }
 }
 
-std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole, MappingReader shared_mapping) {
+std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole) {
     need_element_records(whole);
-    return std::make_unique<PartedByPlugin>(whole, std::move(shared_mapping));
+    return std::make_unique<PartedByPlugin>(whole);
 }
 
 } // namespace elvis

@@ -35,8 +35,8 @@ public:
      * between one of them and another element have an unknown neighbour.
      */
     virtual OpenedElements open(std::span<const std::uint64_t> elements) const = 0;
-    /** Whether elements of other processes can be opened: those around a part are then drawn with it. */
-    virtual bool opens_surroundings() const { return true; }
+    /** Whether this process can open the element: those around a part are drawn with it where they can be. */
+    virtual bool can_open(std::uint64_t) const { return true; }
     /** Whether the whole tells extrema of a field without looking for them in all elements. */
     virtual bool tells_extrema(std::uint32_t field, std::uint32_t time_step) const = 0;
     /** Where no process evaluates all elements: what all of them ask together. Else empty. */
@@ -53,10 +53,7 @@ std::unique_ptr<PartedVolume> parted_native(std::shared_ptr<const native::Volume
 /** Throws Error for a plugin that does not say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS). */
 void need_element_records(const RuntimeVolume& volume);
 
-/**
- * A runtime plugin's, which needs element records: of it only records of the elements are asked for. The whole must outlive it.
- * `shared_mapping`: where each process serves elements of its own and no others.
- */
-std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole, MappingReader shared_mapping = {});
+/** A runtime plugin's, which needs element records: of it only records of the elements are asked for. It must outlive this. */
+std::unique_ptr<PartedVolume> parted_by_plugin(const RuntimeVolume& whole);
 
 } // namespace elvis

@@ -12,7 +12,7 @@ contains
     character(kind=c_char), intent(in) :: folder(*)
     integer(c_int32_t) :: status
     type(c_ptr) :: insitu
-    status = elvis_insitu_open_runtime(context, c_null_ptr, runtime, volume, &
+    status = elvis_insitu_open_runtime(context, c_null_ptr, runtime, volume, c_null_ptr, &
         c_text('{"version": 1, "outputs": [{"name": "sum", "quantities": ["integral(waves^2)"]}]}'), folder, insitu)
     if (status /= ELVIS_OK) return
     status = elvis_insitu_step(insitu, 0_c_int64_t, 0.0_c_double)

@@ -86,6 +86,8 @@ public:
     elvis_volume* served = nullptr;
     elvis_context_options context_options{};
 
+    const RuntimeVolume& volume() const { return *m_volume; }
+
 private:
     TaskControl m_control;
     std::optional<RuntimeVolume> m_volume;
@@ -108,7 +110,8 @@ TEST_CASE("A solver's own functions are drawn, sampled and integrated at each st
     elvis_context_create(&file.context_options, &context);
     ScaledTable::factor = 1;
     const std::string folder = file.path("");
-    REQUIRE(elvis_insitu_open_runtime(context, nullptr, &table, file.served, plan, folder.c_str(), &insitu) == ELVIS_OK);
+    REQUIRE(elvis_insitu_open_runtime(context, nullptr, &table, file.served, nullptr, plan, folder.c_str(), &insitu) ==
+            ELVIS_OK);
     CHECK(elvis_insitu_step(insitu, 0, 0) == ELVIS_OK);
     ScaledTable::factor = 0.5;
     CHECK(elvis_insitu_step(insitu, 1, 0.1) == ELVIS_OK);
@@ -146,7 +149,8 @@ TEST_CASE("A solver in Fortran hands over a table of functions") {
     CHECK(run_fortran_solver(context, &table, file.served, folder.c_str()) == ELVIS_OK);
     // The same in C adds the same row to the same table.
     const char* const plan = R"~({"version": 1, "outputs": [{"name": "sum", "quantities": ["integral(waves^2)"]}]})~";
-    REQUIRE(elvis_insitu_open_runtime(context, nullptr, &table, file.served, plan, folder.c_str(), &insitu) == ELVIS_OK);
+    REQUIRE(elvis_insitu_open_runtime(context, nullptr, &table, file.served, nullptr, plan, folder.c_str(), &insitu) ==
+            ELVIS_OK);
     CHECK(elvis_insitu_step(insitu, 0, 0) == ELVIS_OK);
     elvis_insitu_release(insitu);
     std::istringstream lines(file.read("sum.csv"));
@@ -203,13 +207,29 @@ elvis_runtime native_table() {
     return table;
 }
 
+/** Whether ranks serve elements of others that touch their own. */
+enum class Around { served, not_served };
+
+/** A rank's own elements, with those around them. */
+Elements with_around(const ServedFile& file, const Elements& own) {
+    std::vector<double> boxes(6 * n_elements_in_file);
+    file.volume().bounds(0, n_elements_in_file, boxes);
+    return with_surroundings(boxes, own);
+}
+
 /** What goes wrong on ranks that have these elements. */
 std::vector<std::string> run_ranks(const ServedFile& file, const std::vector<Elements>& elements, const std::string& plan,
-                                   const std::string& folder,
+                                   const std::string& folder, Around around = Around::not_served,
                                    const std::function<void(std::uint32_t, elvis_runtime&)>& change = {}) {
     std::vector<std::string> errors(elements.size());
     ThreadRanks(static_cast<std::uint32_t>(elements.size())).run([&](const elvis_communicator& own) {
-        const ServedPart part(file, elements[own.rank]);
+        const Elements& of_rank = elements[own.rank];
+        const Elements served = around == Around::served ? with_around(file, of_rank) : of_rank;
+        const ServedPart part(file, served);
+        std::vector<std::uint8_t> is_own;
+        for (const std::uint64_t element : served) {
+            is_own.push_back(std::ranges::binary_search(of_rank, element) ? 1 : 0);
+        }
         elvis_context* context = nullptr;
         elvis_insitu* insitu = nullptr;
         elvis_context_create(&file.context_options, &context);
@@ -217,7 +237,8 @@ std::vector<std::string> run_ranks(const ServedFile& file, const std::vector<Ele
         if (change) {
             change(own.rank, table);
         }
-        if (elvis_insitu_open_runtime(context, &own, &table, part.served, plan.c_str(), folder.c_str(), &insitu) != ELVIS_OK ||
+        if (elvis_insitu_open_runtime(context, &own, &table, part.served, around == Around::served ? is_own.data() : nullptr,
+                                      plan.c_str(), folder.c_str(), &insitu) != ELVIS_OK ||
             elvis_insitu_step(insitu, 0, 0) != ELVIS_OK) {
             errors[own.rank] = elvis_context_error(context);
         }
@@ -296,7 +317,7 @@ TEST_CASE("Ranks show the same where a scene names no surfaces, though one of th
     CHECK(file.read("scenes/default_000000.png") == file.read("whole.png"));
 }
 
-TEST_CASE("Along borders between ranks that serve their own elements lines are open, and those that are drawn are right") {
+TEST_CASE("Along borders between ranks lines are open, unless they serve the elements around their own, too") {
     const ServedFile file;
     file.write(
         "scenes/lines.json",
@@ -304,7 +325,7 @@ TEST_CASE("Along borders between ranks that serve their own elements lines are o
         "surfaces": [{"type": "plane", "plane": [1, 0.2, 0.1, 0.1], "mesh_lines": {}, "contours": {"count": 7}}]})");
     REQUIRE(file.run("render scenes/lines.json -o whole.png --buffers whole_buffers.h5").status == 0);
     const std::string plan = R"({"version": 1, "outputs": [{"name": "lines", "scene": "lines.json", "buffers": true}]})";
-    REQUIRE(run_ranks(file, shares(3), plan, file.path("scenes")) == std::vector<std::string>(3));
+    REQUIRE(run_ranks(file, shares(3), plan, file.path("scenes"), Around::not_served) == std::vector<std::string>(3));
     const std::vector<std::uint32_t> whole = flags_in(file.path("whole_buffers.h5")),
                                      ranks = flags_in(file.path("scenes/lines_000000.h5"));
     REQUIRE(whole.size() == ranks.size());
@@ -321,13 +342,19 @@ TEST_CASE("Along borders between ranks that serve their own elements lines are o
     CHECK(n_lines > 1000);
     CHECK(n_silent == 0);
     CHECK(n_open < n_lines);
+    // With the elements around them nothing is open that is not in the parts of a file.
+    REQUIRE(file.run("render scenes/lines.json --parts 3 -o parts.png --buffers parts_buffers.h5").status == 0);
+    CHECK(ranks != flags_in(file.path("parts_buffers.h5")));
+    REQUIRE(run_ranks(file, shares(3), plan, file.path("scenes"), Around::served) == std::vector<std::string>(3));
+    CHECK(file.read("scenes/lines_000000.png") == file.read("parts.png"));
+    CHECK(flags_in(file.path("scenes/lines_000000.h5")) == flags_in(file.path("parts_buffers.h5")));
 }
 
 TEST_CASE("Tables that cannot be those of one volume are refused on all ranks with the same words") {
     const ServedFile file;
     const std::string plan = R"({"version": 1, "outputs": []})";
     const auto refused = [&](const std::string& why, const std::function<void(std::uint32_t, elvis_runtime&)>& change) {
-        const std::vector<std::string> errors = run_ranks(file, shares(2), plan, ".", change);
+        const std::vector<std::string> errors = run_ranks(file, shares(2), plan, ".", Around::not_served, change);
         INFO(errors[0]);
         CHECK(errors[0] == errors[1]);
         CHECK(errors[0].find(why) != std::string::npos);
@@ -348,4 +375,20 @@ TEST_CASE("Tables that cannot be those of one volume are refused on all ranks wi
             return elvis_result{ELVIS_OK};
         };
     });
+    const std::vector<std::string> errors = run_ranks(file, {{0, 1}, {1, 2}}, plan, ".");
+    CHECK(errors[0] == errors[1]);
+    CHECK(errors[0].find("an element is one rank's own") != std::string::npos);
+    // Rank 0 serves element 12, which is around its own, and nobody's.
+    const std::vector<std::string> lonely = run_ranks(file, {{0}, {1, 2}}, plan, ".", Around::served);
+    CHECK(lonely[0] == lonely[1]);
+    CHECK(lonely[0].find("is no rank's own") != std::string::npos);
+    elvis_context* context = nullptr;
+    elvis_insitu* insitu = nullptr;
+    elvis_context_create(&file.context_options, &context);
+    const elvis_runtime table = native_table();
+    const std::vector<std::uint8_t> none(n_elements_in_file, 0);
+    CHECK(elvis_insitu_open_runtime(context, nullptr, &table, file.served, none.data(), plan.c_str(), nullptr, &insitu) !=
+          ELVIS_OK);
+    CHECK(std::string(elvis_context_error(context)).find("has elements that are not its own") != std::string::npos);
+    elvis_context_release(context);
 }

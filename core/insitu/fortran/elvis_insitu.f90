@@ -91,10 +91,12 @@ module elvis_insitu
       integer(c_int32_t) :: status
     end function
 
-    !> `runtime`: the address of an elvis_runtime, which is made in C, or has functions with bind(c) in it; `volume`: what they get.
-    function elvis_insitu_open_runtime(context, communicator, runtime, volume, plan, folder, insitu) bind(c) result(status)
+    !> `runtime`: the address of an elvis_runtime, which is made in C, or has functions with bind(c) in it; `volume`: what they get;
+    !> `is_own`: the address of integer(c_int8_t) numbers, or c_null_ptr.
+    function elvis_insitu_open_runtime(context, communicator, runtime, volume, is_own, plan, folder, insitu) bind(c) &
+        result(status)
       import :: c_ptr, c_int32_t, c_char
-      type(c_ptr), value :: context, communicator, runtime, volume
+      type(c_ptr), value :: context, communicator, runtime, volume, is_own
       character(kind=c_char), intent(in) :: plan(*), folder(*)
       type(c_ptr), intent(out) :: insitu
       integer(c_int32_t) :: status

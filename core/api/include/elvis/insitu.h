@@ -112,20 +112,23 @@ ELVIS_EXPORT elvis_result elvis_insitu_open(elvis_context* context, const elvis_
  * elvis_insitu_set_values is refused, and elvis_insitu_report.read_bytes is 0. `communicator` may be NULL: a program of one
  * process.
  *
- * On several ranks each serves its own elements, at least one, and no others:
+ * On several ranks each table serves the rank's own elements, and may serve elements of other ranks that lie around them.
+ * Records whose meaning only a rank's own functions know are not moved.
+ *  - `is_own`: of each element that the table serves 1 if it is this rank's own, 0 if another's; NULL: all are. Read at once.
+ * Each element is one rank's own. Values of others' elements are up to date when elvis_insitu_step is called.
+ *  - Where a part has all elements around it (that share a point with one of its own), pictures are those of elvis_insitu_open.
+ *    Where some are not there, lines are open (flags 2 and 512) in pixels along the border.
+ *  - Numbers of elements are those of the whole mesh; without elements of other ranks the table need not tell numbers. Faces to
+ *    elements that the table does not serve have an unknown neighbour.
  *  - Classes, fields, buffers, snippets and boundary groups are the same on all ranks, and so is what buffers for all classes
- * hold. A class may be without elements on some of them.
+ * hold. A class may be without elements on some of them. A table serves at least one element.
  *  - Snippets have ELVIS_SNIPPET_ELEMENT_RECORDS (demand.h).
- *  - Numbers of elements, if the table tells them, are those of the whole mesh. Faces to elements of other ranks have an
- * unknown neighbour.
- *  - Records whose meaning only a rank's own functions know are not moved: a part is drawn without the elements around it.
- *    Pictures are those of elvis_insitu_open, but lines are open (flags 2 and 512) in pixels along borders between ranks.
  *
  * Errors besides those of elvis_insitu_open: the table lacks a function that volumes need, or a function of it fails.
  */
 ELVIS_EXPORT elvis_result elvis_insitu_open_runtime(elvis_context* context, const elvis_communicator* communicator,
-                                                    const elvis_runtime* runtime, elvis_volume* volume, elvis_string plan,
-                                                    elvis_string folder, elvis_insitu** insitu);
+                                                    const elvis_runtime* runtime, elvis_volume* volume, const uint8_t* is_own,
+                                                    elvis_string plan, elvis_string folder, elvis_insitu** insitu);
 
 /**
  * Not collective. Values of a field in one class of this rank's elements are at another place from now on: laid out as
