@@ -16,7 +16,7 @@
 #include "lines/subpixel.glsl"
 
 // Evaluations in an element, and levels of cubes.
-#define CORE_PART_EVALUATIONS 400u
+#define CORE_PART_EVALUATIONS 1000u
 #define CORE_PART_LEVELS 7u
 
 struct core_shown_part {
