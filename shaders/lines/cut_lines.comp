@@ -25,7 +25,7 @@ layout(push_constant) uniform core_parameters {
 
 // Iterations of one pixel: far above what lines of a smooth field take, well below where drivers end loops.
 #if CORE_STRONGLY_BENT
-#define CORE_WORK_LIMIT 4000u
+#define CORE_WORK_LIMIT 1500u
 #else
 #define CORE_WORK_LIMIT 2000u
 #endif
