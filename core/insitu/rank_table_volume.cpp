@@ -27,7 +27,7 @@ void add_fields(const RuntimeVolume& volume, std::ostream& text) {
             const BufferInfo of_field = volume.buffer(buffer, field);
             text << of_field.name << '\n'
                  << of_field.kind << ' ' << of_field.element_class << ' ' << of_field.depends << ' ' << of_field.record_size
-                 << ';';
+                 << ' ' << (of_field.element_class == ELVIS_ALL_CLASSES ? of_field.n_records : 0) << ';';
         }
     }
 }
