@@ -355,6 +355,18 @@ TEST_CASE("Along borders between ranks lines are open, unless they serve the ele
     REQUIRE(run_ranks(file, shares(3), plan, file.path("scenes"), Around::served) == std::vector<std::string>(3));
     CHECK(file.read("scenes/lines_000000.png") == file.read("parts.png"));
     CHECK(flags_in(file.path("scenes/lines_000000.h5")) == flags_in(file.path("parts_buffers.h5")));
+    // Every other element: what a rank serves is then scattered among all.
+    std::vector<Elements> every_other(2);
+    std::string partition;
+    for (std::uint64_t element = 0; element < n_elements_in_file; ++element) {
+        every_other[element % 2].push_back(element);
+        partition += std::to_string(element % 2) + "\n";
+    }
+    file.write("partition.txt", partition);
+    REQUIRE(file.run("render scenes/lines.json --parts partition.txt -o other.png --buffers other.h5").status == 0);
+    REQUIRE(run_ranks(file, every_other, plan, file.path("scenes"), Around::served) == std::vector<std::string>(2));
+    CHECK(file.read("scenes/lines_000000.png") == file.read("other.png"));
+    CHECK(flags_in(file.path("scenes/lines_000000.h5")) == flags_in(file.path("other.h5")));
 }
 
 TEST_CASE("Tables that cannot be those of one volume are refused on all ranks with the same words") {
