@@ -114,9 +114,11 @@ void Renderer::Impl::find_overlaps(const TaskControl* task) {
         }
         n_overlapping = overlapping_elements(volume, hierarchies, device.background(), task).size();
         times.overlaps_milliseconds = milliseconds_since(start);
-    }
-    if (n_overlapping > 0) {
-        data.expect_overlaps();
+        if (n_overlapping > 0) {
+            data.expect_overlaps();
+        } else {
+            data.exclude_overlaps();
+        }
     }
 }
 

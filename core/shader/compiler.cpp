@@ -4,7 +4,6 @@
 #include <core/base/error.hpp>
 #include <core/shader/includes.hpp>
 #include <core/shader/snippet_check.hpp>
-#include <core/spirv/partial_evaluation.hpp>
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -20,7 +19,7 @@ namespace elvis {
 namespace {
 
 /** Raise when the way of compiling changes, so that old cache entries are not taken. */
-constexpr const char* way_of_compiling = "3";
+constexpr const char* way_of_compiling = "4";
 
 std::string compiler_version() {
     const glslang::Version version = glslang::GetVersion();
@@ -53,7 +52,7 @@ std::string readable_log(std::string_view log) {
     return text;
 }
 
-std::vector<std::uint32_t> run_compiler(const std::string& text, const std::string& name) {
+std::vector<std::uint32_t> run_compiler(const std::string& text, const std::string& name, SpirvTarget target) {
     // Once a process; glslang counts its users and the process never ends its own use. Compiling is safe on any thread
     // afterwards.
     static std::once_flag initialized;
@@ -81,7 +80,7 @@ std::vector<std::uint32_t> run_compiler(const std::string& text, const std::stri
     options.disableOptimizer = true; // spirv-opt takes a second a kernel, and drivers take as long as without it.
     options.validate = false;
     glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), spirv, &options);
-    spirv = evaluate_partially(spirv);
+    spirv = evaluate_partially(spirv, target);
 #ifndef NDEBUG
     spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_3);
     std::string complaint;
@@ -96,15 +95,16 @@ std::vector<std::uint32_t> run_compiler(const std::string& text, const std::stri
 
 } // namespace
 
-std::vector<std::uint32_t> compile_shader(const std::string& text, const std::string& name) {
+std::vector<std::uint32_t> compile_shader(const std::string& text, const std::string& name, SpirvTarget target) {
     const std::string complete = expand_includes(text, name, shader_source);
-    const std::string entry = content_hash(compiler_version() + "\n" + complete) + ".spirv";
+    const std::string entry =
+        content_hash(compiler_version() + (target == SpirvTarget::processor ? "/processor\n" : "\n") + complete) + ".spirv";
     if (const auto cached = read_cache_entry(entry); cached && cached->size() % sizeof(std::uint32_t) == 0) {
         std::vector<std::uint32_t> spirv(cached->size() / sizeof(std::uint32_t));
         std::memcpy(spirv.data(), cached->data(), cached->size());
         return spirv;
     }
-    const auto spirv = run_compiler(complete, name);
+    const auto spirv = run_compiler(complete, name, target);
     write_cache_entry(entry, std::as_bytes(std::span(spirv)));
     return spirv;
 }

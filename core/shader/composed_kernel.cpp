@@ -48,6 +48,10 @@ std::string snippet_names(const KernelRequest& request) {
     return names;
 }
 
+SpirvTarget target_of(const Device& device) {
+    return device.summary().type == "cpu" ? SpirvTarget::processor : SpirvTarget::graphics_card;
+}
+
 } // namespace
 
 ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& request)
@@ -72,7 +76,7 @@ ComposedKernel::ComposedKernel(const Device& device, const KernelRequest& reques
         [this, &device, text = compose_text(device, request), code = std::move(code), room = std::move(room)]() mutable {
             const std::shared_ptr<void> held = std::move(room);
             const auto start = std::chrono::steady_clock::now();
-            code.spirv = compile_shader(text, m_name);
+            code.spirv = compile_shader(text, m_name, target_of(device));
             take_texel_bindings(code.layout, code.spirv);
             const double compiler = milliseconds_since(start);
             m_kernel.emplace(device, code.spirv, code.layout, code.push_constant_bytes, m_name);

@@ -2,6 +2,7 @@
 
 #include <core/spirv/dead_code.hpp>
 #include <core/spirv/folding.hpp>
+#include <core/spirv/hoisting.hpp>
 #include <core/spirv/variables.hpp>
 #include <core/spirv/writes.hpp>
 
@@ -13,11 +14,14 @@ namespace elvis {
 
 namespace {
 
-// A loop is written out within the limits of Mesa's gallivm: of rounds, and of scalar instructions without loads and stores of
-// the function's variables; with these, so that nested loops end that do nothing else. Nor is one that holds a loop that stays.
+// A loop is written out within limits: of rounds, that of Mesa's gallivm, and of scalar instructions without loads and stores
+// of the function's variables; with these, so that nested loops end that do nothing else. Nor is one that holds a loop that
+// stays.
 constexpr std::size_t most_rounds = 32;
-constexpr std::size_t most_instructions = 832;
-constexpr std::size_t most_with_loads = 16 * most_instructions;
+
+/** For processors more than gallivm's 832: what is fetched in a loop that is written out can be fetched before those around it.
+ */
+constexpr std::size_t most_instructions_for(SpirvTarget target) { return target == SpirvTarget::processor ? 6000 : 832; }
 
 /** That a kernel is left as it is. */
 class NotEvaluated {};
@@ -48,9 +52,9 @@ struct Way {
 
 class Evaluator {
 public:
-    explicit Evaluator(SpirvModule& module)
-        : m_module(module), m_values(module), m_writer(module, m_values), m_variables(module, m_values, m_writer),
-          m_writes(module), m_new_ids(module.bound()) {
+    Evaluator(SpirvModule& module, SpirvTarget target)
+        : m_target(target), m_most_instructions(most_instructions_for(target)), m_module(module), m_values(module),
+          m_writer(module, m_values), m_variables(module, m_values, m_writer), m_writes(module), m_new_ids(module.bound()) {
         for (const SpirvInstruction& global : module.globals) {
             m_new_ids[global.result] = global.result;
         }
@@ -65,6 +69,9 @@ public:
         }
         std::vector<SpirvInstruction> body = m_writer.take();
         drop_dead_code(body, m_values);
+        if (m_target == SpirvTarget::processor) {
+            hoist_fetches(body);
+        }
         return put_spirv_together(m_module, body, m_writer.decorations(body));
     }
 
@@ -297,8 +304,8 @@ private:
             if (end == End::reached && m_at == after) {
                 break;
             }
-            const bool is_long = rounds == most_rounds || m_instructions - instructions > most_instructions ||
-                                 m_writer.size() - size > most_with_loads || m_n_kept > n_kept;
+            const bool is_long = rounds == most_rounds || m_instructions - instructions > m_most_instructions ||
+                                 m_writer.size() - size > 16 * m_most_instructions || m_n_kept > n_kept;
             if (end == End::reached && is_long) {
                 end = End::failed;
             }
@@ -487,6 +494,8 @@ private:
         return id;
     }
 
+    SpirvTarget m_target;
+    std::size_t m_most_instructions;
     SpirvModule& m_module;
     SpirvValues m_values;
     SpirvWriter m_writer;
@@ -515,10 +524,10 @@ private:
 
 } // namespace
 
-std::vector<std::uint32_t> evaluate_partially(std::span<const std::uint32_t> spirv) {
+std::vector<std::uint32_t> evaluate_partially(std::span<const std::uint32_t> spirv, SpirvTarget target) {
     SpirvModule module = take_spirv_apart(spirv);
     try {
-        return Evaluator(module).evaluate();
+        return Evaluator(module, target).evaluate();
     } catch (const NotEvaluated&) {
         return {spirv.begin(), spirv.end()};
     }

@@ -63,7 +63,7 @@ void core_projection_touch(core_traced_ray traced_ray, inout core_projection_sea
 
 // An iteration towards the next segment.
 void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout core_projection_search search) {
-    const uint ending = core_segment_iterate(traced_ray, true, search.segment);
+    const uint ending = core_segment_iterate(traced_ray, search.segment.element, search.segment);
     search.n_evaluations += 1u;
     core_projection_touch(traced_ray, search);
     const bool is_found = ending == CORE_SEGMENT_FOUND && search.segment.enter < search.segment.leave;
@@ -86,7 +86,7 @@ void core_projection_segment(core_ray ray, core_traced_ray traced_ray, inout cor
     search.from = search.segment_from;
     search.to = search.segment_to;
     search.interval.values = search.interval.slopes = core_fit_begin();
-    search.follower = core_follow_from(search.segment.anchor);
+    search.follower = core_follow_from(search.segment.anchor, search.segment.anchor);
     core_follow_to(search.follower, search.from, elvis_real(0), elvis_real(0));
 }
 

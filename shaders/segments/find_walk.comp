@@ -31,6 +31,8 @@ layout(push_constant) uniform core_parameters {
     uint core_zero;
     // The diagonal of the volume's bounds; what its positions are off before any of it is evaluated.
     float core_extent, core_data_error;
+    // How far before the end of the last walk starts are looked for.
+    float core_look_back;
 };
 
 #if CORE_RAYS_ARE_GIVEN
@@ -129,7 +131,7 @@ void core_follow_candidate(core_ray pixel_ray, const core_traced_ray ray, core_s
     const elvis_real end = min(candidate.to, begin + ray.longest);
     // The last walk, if there is one, may have begun at the eye.
     const bool is_taken =
-        !search.is_first && core_first_element + candidate.element == search.walk.global_start_element && search.from > pixel_ray.least_t;
+        !search.is_first && core_first_element + candidate.element == search.walk.global_start_element && search.walk.start > pixel_ray.least_t;
     const bool may_start = core_may_start(ray, candidate.element, begin, end, search.is_first ? begin : search.from, is_taken);
     search.is_following = core_segment_begin(ray, candidate.element, begin, end, false, segment) && may_start;
     search.has_entered = false;
@@ -218,7 +220,7 @@ bool core_follow(const core_traced_ray ray, uint ending, const core_segment segm
     return ending == CORE_SEGMENT_FOUND && !is_start && segment.resume < segment.last;
 }
 
-core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 place, bool is_mine) {
+core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, elvis_real speed, uvec2 place, bool is_mine) {
     core_start_search search;
     search.walk = state.walk;
 #if CORE_MAKES_SEGMENTS
@@ -227,7 +229,7 @@ core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, uvec2 
     search.at_error = elvis_real(0);
 #endif
     search.is_first = state.walk.global_start_element == CORE_NO_ELEMENT;
-    search.from = search.is_first ? least_t : state.walk.start;
+    search.from = search.is_first ? least_t : max(state.walk.start, state.walk.done - elvis_real(core_look_back) / speed);
 #if CORE_RAYS_ARE_GIVEN
     search.list = 0u;
     search.n_entries = is_mine ? 1u : 0u;
@@ -252,7 +254,7 @@ void main() {
     const bool is_mine = is_pixel && (state.walk.status == CORE_RAY_SEEKS || state.walk.status == CORE_RAY_HAS_SOUGHT);
     const core_ray pixel_ray = core_source_ray(place.x, place.y, pixel);
     const core_traced_ray ray = core_traced_ray_of(pixel_ray, elvis_real(core_extent), elvis_real(core_data_error));
-    core_start_search search = core_search_begin(state, pixel_ray.least_t, place, is_mine);
+    core_start_search search = core_search_begin(state, pixel_ray.least_t, ray.speed, place, is_mine);
     core_segment segment = core_no_segment();
     const vec3 along = vec3(ray.direction / ray.speed);
     while ((search.is_following || core_has_nodes(search)) && search.work < CORE_WORK_LIMIT) {
@@ -270,7 +272,7 @@ void main() {
 #if CORE_HAS_CURVED
         core_start_in_curved(ray, along, search.is_following && segment.curvature > CORE_FOLLOWED_CURVATURE, segment, search);
 #endif
-        const uint ending = search.is_following ? core_segment_iterate(ray, search.is_following, segment) : CORE_SEGMENT_NONE;
+        const uint ending = search.is_following ? core_segment_iterate(ray, segment.element, segment) : CORE_SEGMENT_NONE;
         if (core_follow(ray, ending, segment, search)) {
             const elvis_real resume = max(segment.resume, segment.leave) + ray.tolerance;
             search.is_following = core_segment_begin(ray, segment.element, resume, segment.last, false, segment);

@@ -163,8 +163,9 @@ core_passage core_walk_pass(const core_traced_ray ray, inout core_walk walk, ino
         ending = is_entered ? CORE_SEGMENT_OPEN : ending;
     }
 #endif
+    const uint element = segment.element;
     while (ending == CORE_SEGMENT_OPEN) {
-        ending = core_segment_iterate(ray, true, segment);
+        ending = core_segment_iterate(ray, element, segment);
         if (ending != CORE_SEGMENT_OPEN) {
             break;
         }

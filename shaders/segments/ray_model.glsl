@@ -14,6 +14,7 @@
 #include "element/inside.glsl"
 #include "element/prediction.glsl"
 #include "element/shape_region.glsl"
+#include "segments/ray_point.glsl"
 
 #define CORE_NO_FACE -1
 
@@ -110,12 +111,27 @@ elvis_real core_slope_change(core_ray_model model, elvis_real curvature, elvis_r
     return share < elvis_real(0.5LF) ? core_max_norm(model.slope) * share / (elvis_real(1) - share) : elvis_real(1e30LF);
 }
 
+// Where the ray enters an element, or is in it, with the curvature there; CORE_UNKNOWN_CURVATURE if it is not known.
+struct core_ray_entry {
+    core_ray_point point;
+    elvis_real curvature;
+};
+
+// From the entry on, how long in the ray's parameter it surely stays inside of a face by which it enters. Over steps of at most a fifth
+// of 1 / C predictions are off by 2 C times the step's square at most (core_prediction_error).
+elvis_real core_entry_reach(const core_ray_entry entry, elvis_vec3 normal, elvis_real norm) {
+    const elvis_vec3 slope = core_slope_of(entry.point);
+    const elvis_real speed = core_max_norm(slope), rate = max(-dot(normal, slope), elvis_real(0));
+    return min(rate / (elvis_real(2) * norm * speed), elvis_real(0.2LF)) / (entry.curvature * speed);
+}
+
 // Within [begin, end], where predictions are off by at most `error`, and slopes by `slope_change`. `is_inside`: the ray is inside at
 // `begin`, so that a face of the shape by which it surely enters does not bound what is sure. `is_confirmed`: then such a face does not
 // limit the possible interval either, because rounding could place the ray just outside. A face that the ray runs along within rounding
 // bounds nothing: rays in a face that two elements share lie in both.
+// `entry`: where the ray enters the element, or is in it; what is known from there.
 core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real slope_change, bool is_inside, bool is_confirmed,
-                            elvis_real begin, elvis_real end) {
+                            const core_ray_entry entry, elvis_real begin, elvis_real end) {
     const elvis_real low = begin - model.anchor, high = end - model.anchor;
     const elvis_real tiny = elvis_real(1e-30LF);
     // Over the length of the shape, however short the interval: else every face would be one that the ray runs along in the end.
@@ -150,7 +166,9 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real s
 #endif
         clip.possible_to = is_leaving ? min(clip.possible_to, outer) : clip.possible_to;
         clip.sure_to = is_leaving ? min(clip.sure_to, inner) : clip.sure_to;
-        const bool is_kept = is_inside && face < CORE_N_FACES && slope < -(size.x + size.y + size.z) * slope_change;
+        const elvis_real norm = size.x + size.y + size.z;
+        const bool is_entered = inner <= (entry.point.t - model.anchor) + core_entry_reach(entry, constraint.xyz, norm);
+        const bool is_kept = is_inside && face < CORE_N_FACES && (slope < -norm * slope_change || is_entered);
         clip.possible_from = is_leaving || (is_kept && is_confirmed) ? clip.possible_from : max(clip.possible_from, outer);
         clip.sure_from = is_leaving || is_kept ? clip.sure_from : max(clip.sure_from, inner);
     }

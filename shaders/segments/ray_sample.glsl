@@ -44,25 +44,16 @@ struct core_ray_sample {
     bool is_finite;
 };
 
-core_follower core_follow_from(core_ray_point known) {
+core_follower core_follow_from(core_ray_point known, core_ray_point before) {
     core_follower follower;
-    follower.known = follower.before = known;
+    follower.known = known;
+    follower.before = before;
     return follower;
 }
 
-// By the cubic through the last two points and their slopes, between them or not much farther beyond the last one than they are apart; else
-// along the last one's slope.
 elvis_vec3 core_predict_point(const core_follower follower) {
-    const core_ray_point known = follower.known, before = follower.before;
-    const elvis_real since = follower.at - known.t, width = before.t - known.t;
-    const bool is_near = (since - width) * (since + elvis_real(1.5LF) * width) < elvis_real(0);
-    const elvis_real t = is_near ? since / width : elvis_real(0), s = elvis_real(1) - t;
-    const elvis_real of_before = t * t * (elvis_real(3) - elvis_real(2) * t), of_slope = is_near ? width * t * s * s : since;
-    const elvis_real of_slope_before = -width * t * t * s;
     // Far predictions are of no use but for their direction, and could overflow.
-    return clamp(core_xi_of(known) + of_before * (core_xi_of(before) - core_xi_of(known)) + of_slope * core_slope_of(known) +
-                     of_slope_before * core_slope_of(before),
-                 elvis_vec3(-4), elvis_vec3(4));
+    return clamp(core_predicted_by_two(follower.known, follower.before, follower.at), elvis_vec3(-4), elvis_vec3(4));
 }
 
 void core_follow_to(inout core_follower follower, elvis_real goal, elvis_real span, elvis_real enough) {
@@ -178,15 +169,18 @@ core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_
     return result;
 }
 
-// The field at the ray's point at `at`, as it is predicted from the evaluation of the mapping that found where the ray leaves: another one
-// is not needed if that was near enough, which the status says.
-core_ray_sample core_sample_predicted(const core_segment segment, elvis_real at, elvis_real span, elvis_real enough) {
+// The field at the ray's point at `at`, as it is predicted from the evaluation of the mapping that found where the ray leaves, or enters if
+// it `is_entry`: another one is not needed if that was near enough, which the status says.
+core_ray_sample core_sample_predicted(const core_segment segment, bool is_entry, elvis_real at, elvis_real span, elvis_real enough) {
     core_ray_sample result;
-    result.w = core_slope_of(segment.anchor);
-    const elvis_real speed = core_max_norm(result.w), step = segment.newton_step + abs(at - segment.anchor.t) * speed;
-    const elvis_real off = core_prediction_error(segment.anchor_curvature, step);
-    core_sample_field(segment.element, core_predicted(segment.anchor, at), off, segment.noise, step, step + abs(span) * speed,
-                      segment.anchor_curvature, span, result);
+    const core_ray_point from = core_either(is_entry, segment.entry.point, segment.anchor);
+    const elvis_real curvature = is_entry ? segment.entry.curvature : segment.anchor_curvature;
+    const elvis_vec3 noise = is_entry ? elvis_vec3(segment.entry_noise) : segment.noise;
+    result.w = core_slope_of(from);
+    const elvis_real speed = core_max_norm(result.w);
+    const elvis_real step = (is_entry ? segment.entry_step : segment.newton_step) + abs(at - from.t) * speed;
+    const elvis_real off = core_prediction_error(curvature, step);
+    core_sample_field(segment.element, core_predicted(from, at), off, noise, step, step + abs(span) * speed, curvature, span, result);
     const bool is_enough = core_sample_is_enough(result, span, enough);
     const bool has_converged = result.is_known && off <= elvis_real(3) * result.rounding;
     result.error += has_converged ? elvis_real(0) : elvis_real(0.125LF) * abs(span) * result.slope_error;

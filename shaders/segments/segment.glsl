@@ -55,6 +55,9 @@
 #define CORE_HAS_CURVED 1
 #endif
 
+// Of a point that no evaluation has led to.
+#define CORE_NO_STEP elvis_real(3e38LF)
+
 #define CORE_SEGMENT_OPEN 0u
 #define CORE_SEGMENT_FOUND 1u
 #define CORE_SEGMENT_NONE 2u
@@ -77,13 +80,16 @@ struct core_segment {
     int enter_face, leave_face;
     // Where the search goes on after the segment, if before `last`.
     elvis_real resume;
-    // The last prediction, from which the next point comes.
-    core_ray_point anchor;
+    // The last prediction and the one before it, the same one if there is none: the next point comes from them.
+    core_ray_point anchor, before;
     // Length of the step that led to it, and rounding of its coordinates.
     elvis_real newton_step;
     elvis_vec3 noise;
     // Of the element, and for predictions from the anchor.
     elvis_real curvature, anchor_curvature;
+    // Where the ray has been found to enter (core_segment_enter), with the same numbers of that prediction.
+    core_ray_entry entry;
+    elvis_real entry_step, entry_noise;
     uint iterations;
 };
 
@@ -91,7 +97,7 @@ core_segment core_no_segment() {
     core_segment segment;
     segment.element = 0u;
     segment.next = elvis_real(0);
-    segment.anchor = core_ray_point_at(elvis_real(0), elvis_vec3(0), elvis_vec3(0));
+    segment.anchor = segment.before = core_ray_point_at(elvis_real(0), elvis_vec3(0), elvis_vec3(0));
     segment.iterations = 0u;
     return segment;
 }
@@ -122,7 +128,9 @@ bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begi
 #endif
     // Points of the shape are no farther away than its radius, wherever they are predicted.
     const elvis_real error = curvature * CORE_SHAPE_RADIUS * CORE_SHAPE_RADIUS + CORE_START_ERROR;
-    const core_ray_clip clip = core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), elvis_real(0), false, false, begin, end);
+    const core_ray_entry entry = core_ray_entry(core_ray_point_at(begin, here, model.slope), CORE_UNKNOWN_CURVATURE);
+    const core_ray_clip clip =
+        core_clip_ray(model, is_linearized ? error : elvis_real(1e6LF), elvis_real(0), false, false, entry, begin, end);
     const bool is_possible = clip.possible_from <= clip.possible_to && begin < end;
     // Without an evaluation nothing is known of the element's own boundary.
     const bool is_sure =
@@ -147,7 +155,10 @@ bool core_segment_begin(const core_traced_ray ray, uint element, elvis_real begi
     segment.enter_error = segment.leave = segment.leave_error = segment.resume = elvis_real(0);
     segment.anchor = core_either(is_linearized, core_ray_point_at(begin, here, model.slope),
                                  core_ray_point_at(begin, CORE_CENTROID, elvis_vec3(0)));
-    segment.newton_step = elvis_real(3e38LF);
+    segment.before = segment.anchor;
+    segment.entry = core_ray_entry(segment.anchor, CORE_UNKNOWN_CURVATURE);
+    segment.newton_step = segment.entry_step = CORE_NO_STEP;
+    segment.entry_noise = elvis_real(0);
     segment.noise = elvis_vec3(0);
     segment.iterations = 0u;
     return is_possible;
@@ -199,12 +210,13 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
     bool is_found = false, is_proven = false;
     elvis_real x = segment.anchor.x, y = segment.anchor.y, z = segment.anchor.z;
     core_project(x, y, z);
+    const uint element = segment.element;
     while (!is_found && start < CORE_ENTER_STARTS) {
-        const core_ray_evaluation here = core_evaluate_ray(ray, segment.element, elvis_vec3(x, y, z), segment.anchor.t);
+        const core_ray_evaluation here = core_evaluate_ray(ray, element, elvis_vec3(x, y, z), segment.anchor.t);
         const elvis_vec3 at = here.model.at, slope = here.model.slope;
         const elvis_real noise = core_max_norm(here.model.noise), size = core_max_norm(here.model.newton_step);
         const elvis_real beyond = core_excess(at.x, at.y, at.z);
-        const elvis_real curvature = core_curvature_at(segment.element, here.frame, segment.curvature);
+        const elvis_real curvature = core_curvature_at(element, here.frame, segment.curvature);
         const bool is_there = here.frame.is_sound && core_is_near(curvature, size) && size <= max(elvis_real(4) * noise, elvis_real(1e-3LF));
         const bool is_in = beyond <= CORE_CONSTRAINT_NORM * (elvis_real(8) * noise + slack * core_max_norm(slope) +
                                                              elvis_real(2) * curvature * size * size);
@@ -213,7 +225,9 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
         is_found = is_there && is_in;
         segment.anchor = core_either(is_found, core_ray_point_at(segment.anchor.t, at, slope), segment.anchor);
         segment.anchor_curvature = is_found ? curvature : segment.anchor_curvature;
-        is_proven = core_proven_curvature_at(segment.element, here.frame) < CORE_UNKNOWN_CURVATURE;
+        segment.newton_step = is_found ? size : segment.newton_step;
+        segment.entry_noise = noise;
+        is_proven = core_proven_curvature_at(element, here.frame) < CORE_UNKNOWN_CURVATURE;
         // From the centroid, then from near the corners.
         const bool is_failed = !here.frame.is_sound || (is_there && !is_in) || steps >= CORE_ENTER_STEPS;
         const elvis_real out_to = start == 0u ? elvis_real(0) : elvis_real(0.7LF);
@@ -225,6 +239,9 @@ bool core_segment_enter(const core_traced_ray ray, elvis_real slack, inout core_
         core_project(x, y, z);
     }
     const elvis_real rate = core_max_norm(core_slope_of(segment.anchor));
+    segment.before = segment.anchor;
+    segment.entry = core_ray_entry(segment.anchor, is_found ? segment.anchor_curvature : CORE_UNKNOWN_CURVATURE);
+    segment.entry_step = segment.newton_step;
     segment.is_followed = is_found;
     segment.is_estimated = segment.is_estimated && !(is_found && is_proven);
     segment.is_inside = segment.is_inside || is_found;
@@ -256,7 +273,7 @@ core_ray_clip core_clip_interval(const core_ray_evaluation here, elvis_real curv
     const bool is_agreed = xi != predicted && !segment.is_inside && segment.iterations > 1u;
     core_ray_clip clip =
         core_clip_ray(here.model, is_agreed ? min(bound, agreed) : bound, core_slope_change(here.model, curvature, distance),
-                      segment.is_inside, segment.is_followed || !segment.is_assumed, segment.begin, segment.end);
+                      segment.is_inside, segment.is_followed || !segment.is_assumed, segment.entry, segment.begin, segment.end);
     // Where nothing is known, anything is possible.
     clip.possible_from = here.is_sound ? clip.possible_from : segment.begin;
     clip.possible_to = here.is_sound ? clip.possible_to : segment.end;
@@ -269,7 +286,9 @@ core_ray_clip core_clip_interval(const core_ray_evaluation here, elvis_real curv
 void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elvis_real tolerance, inout core_segment segment) {
     const core_ray_model model = here.model;
     const bool is_anchor = here.is_sound && (!segment.is_followed || core_is_near(curvature, core_max_norm(model.newton_step)));
-    segment.anchor = core_either(is_anchor, core_ray_point_at(model.anchor, model.at, model.slope), segment.anchor);
+    const core_ray_point point = core_ray_point_at(model.anchor, model.at, model.slope);
+    segment.before = core_either(is_anchor, core_either(segment.newton_step < CORE_NO_STEP, segment.anchor, point), segment.before);
+    segment.anchor = core_either(is_anchor, point, segment.anchor);
     segment.newton_step = is_anchor ? core_model_step(model, model.anchor) : segment.newton_step;
     segment.noise = is_anchor ? model.noise : segment.noise;
     segment.anchor_curvature = is_anchor ? curvature : segment.anchor_curvature;
@@ -282,10 +301,17 @@ void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elv
     segment.next = is_too_far ? elvis_real(0.5LF) * (segment.begin + segment.end) : segment.next;
 }
 
-// One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `is_active`: false for lanes that have nothing to do.
-uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segment segment) {
-    const uint element = is_active ? segment.element : 0u;
-    const elvis_vec3 predicted = core_predicted(segment.anchor, segment.next);
+// Where the next point is: no farther from the line along the last one's slope than the ray may be.
+elvis_vec3 core_predicted_next(const core_segment segment) {
+    const elvis_vec3 line = core_predicted(segment.anchor, segment.next);
+    const elvis_vec3 cubic = core_predicted_by_two(segment.anchor, segment.before, segment.next);
+    const elvis_real distance = abs(segment.next - segment.anchor.t) * core_max_norm(core_slope_of(segment.anchor));
+    return core_max_norm(cubic - line) <= segment.anchor_curvature * distance * distance ? cubic : line;
+}
+
+// One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `element`: segment.element, known before the loop around this.
+uint core_segment_iterate(core_traced_ray ray, uint element, inout core_segment segment) {
+    const elvis_vec3 predicted = core_predicted_next(segment);
     elvis_real x = predicted.x, y = predicted.y, z = predicted.z;
     core_project(x, y, z);
     const elvis_vec3 xi = elvis_vec3(x, y, z);
@@ -329,7 +355,11 @@ uint core_segment_iterate(core_traced_ray ray, bool is_active, inout core_segmen
     }
     segment.is_estimated = segment.is_estimated || (is_denied && core_is_assumed(segment));
     segment.is_followed = segment.is_followed && !is_denied;
+    const bool is_at_crossing = is_kept_in && face >= 0 && segment.next == clamp(crossing, segment.begin, segment.end);
     core_predict_from(here, curvature, ray.tolerance, segment);
+    const elvis_vec4 side = core_side_constraint(here.model, max(face, 0));
+    const elvis_real refined = is_at_crossing ? core_crossing_by_two(segment.anchor, segment.before, side, crossing) : segment.next;
+    segment.next = is_at_crossing ? clamp(refined, segment.begin, segment.end) : segment.next;
 
     const bool is_given_up = segment.iterations >= CORE_SEGMENT_ITERATIONS * CORE_ITERATIONS_SHARE;
     const bool is_found = is_kept_in && (has_left || is_given_up);

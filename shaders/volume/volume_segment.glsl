@@ -78,17 +78,26 @@ core_integrated core_add_segment(const core_traced_ray ray, const core_segment s
     core_findings findings = core_findings(is_bounded, true, false, false);
     const core_accuracy wanted = core_accuracy_along(ray.speed, start, from, until, march.light);
     core_integral integral = core_integral_begin(from, has_segment && !is_bounded ? until : from, ray.speed, march.step);
-    core_follower follower = core_follow_from(segment.anchor);
+    const core_ray_point before = core_either(segment.entry_step < CORE_NO_STEP, segment.entry.point, segment.anchor);
+    core_follower follower = core_follow_from(segment.anchor, before);
     core_follow_to(follower, core_integral_at(integral), core_integral_span(integral), wanted.enough);
 #if CORE_IS_EXACT
-    // Where the ray leaves the mapping has been evaluated.
-    if (core_is_open(integral.wants, findings)) {
-        const core_ray_sample found = core_sample_predicted(segment, follower.goal, follower.span, wanted.enough);
+    // Where the ray leaves the mapping has been evaluated, and where it enters an element that it is followed in.
+    bool is_predicted = core_is_open(integral.wants, findings), is_entry = false;
+    while (is_predicted) {
+        const core_ray_sample found = core_sample_predicted(segment, is_entry, follower.goal, follower.span, wanted.enough);
         march.n_evaluations += 1u;
-        findings.is_constant = core_tells_constant(found, follower.span, until - from, march.held);
-        if (core_is_taken(found.status, findings)) {
+        findings.is_constant = findings.is_fresh && core_tells_constant(found, follower.span, until - from, march.held);
+        const bool is_taken = core_is_taken(found.status, findings);
+        if (is_taken) {
+            findings.is_fresh = false;
             core_integral_add(integral, march.light, found, wanted, march.held, march.work);
             core_follow_to(follower, core_integral_at(integral), core_integral_span(integral), wanted.enough);
+        }
+        is_predicted = is_taken && !is_entry && integral.wants == CORE_WANTS_LEFT && segment.entry_step < CORE_NO_STEP;
+        is_entry = true;
+        if (!is_predicted) {
+            break;
         }
     }
 #endif
