@@ -81,18 +81,20 @@ private:
         }
     }
 
-    /** Whether a value is known before the loop, wherever it is computed. */
-    bool is_known_before(const LoopRange& loop, SpirvId id) const {
+    /** Whether a value is known before the loop, wherever it is computed. `is_image`: it is an image, which is always the same.
+     */
+    bool is_known_before(const LoopRange& loop, SpirvId id, bool is_image = false) const {
         const std::size_t at = definition(id);
         if (at == elsewhere || at < loop.first || at >= loop.end || m_moved_before[at] <= loop.first) {
             return true;
         }
         const SpirvInstruction& i = m_body[at];
-        // Of images in the kernel's interface.
-        const bool is_image = i.op == spv::OpLoad && definition(i.words[3]) == elsewhere;
-        return is_image || (is_place(i.op) && std::ranges::all_of(i.operands, [&](std::uint16_t k) {
-                                return is_known_before(loop, i.words[k]);
-                            }));
+        if (is_image && i.op == spv::OpLoad) {
+            return definition(i.words[3]) == elsewhere;
+        }
+        return is_place(i.op) && std::ranges::all_of(i.operands, [&](std::uint16_t k) {
+                   return is_known_before(loop, i.words[k], i.op == spv::OpImageFetch && k == 3);
+               });
     }
 
     void hoist(std::size_t fetch) {

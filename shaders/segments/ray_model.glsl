@@ -18,6 +18,12 @@
 
 #define CORE_NO_FACE -1
 
+// Whether it is remembered where a ray enters the element that it is followed in, and the last point but one. Elsewhere registers are
+// worth more.
+#ifndef CORE_REMEMBERS_ENTRY
+#define CORE_REMEMBERS_ENTRY 0
+#endif
+
 // No point of the shape is farther from its centroid, in the maximum norm.
 #if ELVIS_SHAPE == ELVIS_SHAPE_HEXAHEDRON
 #define CORE_SHAPE_RADIUS elvis_real(1)
@@ -167,8 +173,11 @@ core_ray_clip core_clip_ray(core_ray_model model, elvis_real error, elvis_real s
         clip.possible_to = is_leaving ? min(clip.possible_to, outer) : clip.possible_to;
         clip.sure_to = is_leaving ? min(clip.sure_to, inner) : clip.sure_to;
         const elvis_real norm = size.x + size.y + size.z;
-        const bool is_entered = inner <= (entry.point.t - model.anchor) + core_entry_reach(entry, constraint.xyz, norm);
-        const bool is_kept = is_inside && face < CORE_N_FACES && (slope < -norm * slope_change || is_entered);
+        bool is_entered = slope < -norm * slope_change;
+#if CORE_REMEMBERS_ENTRY
+        is_entered = is_entered || inner <= (entry.point.t - model.anchor) + core_entry_reach(entry, constraint.xyz, norm);
+#endif
+        const bool is_kept = is_inside && face < CORE_N_FACES && is_entered;
         clip.possible_from = is_leaving || (is_kept && is_confirmed) ? clip.possible_from : max(clip.possible_from, outer);
         clip.sure_from = is_leaving || is_kept ? clip.sure_from : max(clip.sure_from, inner);
     }

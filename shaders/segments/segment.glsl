@@ -304,9 +304,17 @@ void core_predict_from(const core_ray_evaluation here, elvis_real curvature, elv
 // Where the next point is: no farther from the line along the last one's slope than the ray may be.
 elvis_vec3 core_predicted_next(const core_segment segment) {
     const elvis_vec3 line = core_predicted(segment.anchor, segment.next);
+#if !CORE_REMEMBERS_ENTRY
+    return line;
+#endif
     const elvis_vec3 cubic = core_predicted_by_two(segment.anchor, segment.before, segment.next);
     const elvis_real distance = abs(segment.next - segment.anchor.t) * core_max_norm(core_slope_of(segment.anchor));
     return core_max_norm(cubic - line) <= segment.anchor_curvature * distance * distance ? cubic : line;
+}
+
+// A point before the last one: where the ray has been found to enter, or the last one.
+core_ray_point core_point_before(const core_segment segment) {
+    return core_either(CORE_REMEMBERS_ENTRY == 1 && segment.entry_step < CORE_NO_STEP, segment.entry.point, segment.anchor);
 }
 
 // One iteration. CORE_SEGMENT_FOUND: from segment.enter to segment.leave. `element`: segment.element, known before the loop around this.
@@ -357,9 +365,11 @@ uint core_segment_iterate(core_traced_ray ray, uint element, inout core_segment 
     segment.is_followed = segment.is_followed && !is_denied;
     const bool is_at_crossing = is_kept_in && face >= 0 && segment.next == clamp(crossing, segment.begin, segment.end);
     core_predict_from(here, curvature, ray.tolerance, segment);
+#if CORE_REMEMBERS_ENTRY
     const elvis_vec4 side = core_side_constraint(here.model, max(face, 0));
     const elvis_real refined = is_at_crossing ? core_crossing_by_two(segment.anchor, segment.before, side, crossing) : segment.next;
     segment.next = is_at_crossing ? clamp(refined, segment.begin, segment.end) : segment.next;
+#endif
 
     const bool is_given_up = segment.iterations >= CORE_SEGMENT_ITERATIONS * CORE_ITERATIONS_SHARE;
     const bool is_found = is_kept_in && (has_left || is_given_up);

@@ -46,6 +46,9 @@ layout(push_constant) uniform core_parameters {
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
 #define CORE_CERTAIN_ITERATIONS 640u
 #define CORE_SEGMENT_ITERATIONS 704u
+#if CORE_HAS_CURVED
+#define CORE_REMEMBERS_ENTRY 1
+#endif
 #include "segments/segment.glsl"
 #include "segments/traced_ray.glsl"
 #include "segments/neighbour_walk.glsl"

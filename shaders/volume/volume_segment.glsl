@@ -78,8 +78,7 @@ core_integrated core_add_segment(const core_traced_ray ray, const core_segment s
     core_findings findings = core_findings(is_bounded, true, false, false);
     const core_accuracy wanted = core_accuracy_along(ray.speed, start, from, until, march.light);
     core_integral integral = core_integral_begin(from, has_segment && !is_bounded ? until : from, ray.speed, march.step);
-    const core_ray_point before = core_either(segment.entry_step < CORE_NO_STEP, segment.entry.point, segment.anchor);
-    core_follower follower = core_follow_from(segment.anchor, before);
+    core_follower follower = core_follow_from(segment.anchor, core_point_before(segment));
     core_follow_to(follower, core_integral_at(integral), core_integral_span(integral), wanted.enough);
 #if CORE_IS_EXACT
     // Where the ray leaves the mapping has been evaluated, and where it enters an element that it is followed in.
@@ -94,7 +93,8 @@ core_integrated core_add_segment(const core_traced_ray ray, const core_segment s
             core_integral_add(integral, march.light, found, wanted, march.held, march.work);
             core_follow_to(follower, core_integral_at(integral), core_integral_span(integral), wanted.enough);
         }
-        is_predicted = is_taken && !is_entry && integral.wants == CORE_WANTS_LEFT && segment.entry_step < CORE_NO_STEP;
+        is_predicted = CORE_REMEMBERS_ENTRY == 1 && is_taken && !is_entry && integral.wants == CORE_WANTS_LEFT &&
+                       segment.entry_step < CORE_NO_STEP;
         is_entry = true;
         if (!is_predicted) {
             break;

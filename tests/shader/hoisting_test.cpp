@@ -26,6 +26,7 @@ constexpr uint n_invocations = 40;
 const std::string beginning = "layout(local_size_x = 1) in;\n"
                               "layout(std430, set = 0, binding = 0) buffer output_block { uint result[]; };\n"
                               "layout(set = 0, binding = 1) uniform utextureBuffer numbers;\n"
+                              "uint last;\n"
                               "uint fetched(uint at) { return texelFetch(numbers, int(at)).x; }\n";
 
 std::string text_of(const std::string& body) {
@@ -132,6 +133,24 @@ TEST_CASE("A fetch whose place is told by what the loop changes stays") {
         for (uint i = 0; i < u; ++i) {
             sum += (at % 100) * (at % 100);
             at = sum + i;
+        }
+        CHECK(found[u] == sum);
+    }
+}
+
+TEST_CASE("A fetch whose place is told by a variable of the kernel stays in the loop that changes it") {
+    const std::string body = "last = u;\n"
+                             "for (uint i = 0u; i < u; ++i) {\n"
+                             "    sum += fetched(last);\n"
+                             "    if (i % 3u == 0u) { last = i; }\n"
+                             "}\n";
+    CHECK(loops_around(body, SpirvTarget::processor) == Counts{1});
+    const std::vector<uint> found = results(body);
+    for (uint u = 0; u < n_invocations; ++u) {
+        uint sum = 0, last = u;
+        for (uint i = 0; i < u; ++i) {
+            sum += last * last;
+            last = i % 3 == 0 ? i : last;
         }
         CHECK(found[u] == sum);
     }
