@@ -49,7 +49,7 @@ std::string snippet_names(const KernelRequest& request) {
 }
 
 SpirvTarget target_of(const Device& device) {
-    return device.summary().type == "cpu" ? SpirvTarget::processor : SpirvTarget::graphics_card;
+    return device.uses_texel_buffers() ? SpirvTarget::processor : SpirvTarget::graphics_card;
 }
 
 } // namespace

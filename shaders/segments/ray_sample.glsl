@@ -173,6 +173,7 @@ core_ray_sample core_sample_step(const core_traced_ray ray, uint element, elvis_
 // it `is_entry`: another one is not needed if that was near enough, which the status says.
 core_ray_sample core_sample_predicted(const core_segment segment, bool is_entry, elvis_real at, elvis_real span, elvis_real enough) {
     core_ray_sample result;
+    is_entry = is_entry && CORE_REMEMBERS_ENTRY == 1;
     const core_ray_point from = core_either(is_entry, segment.entry.point, segment.anchor);
     const elvis_real curvature = is_entry ? segment.entry.curvature : segment.anchor_curvature;
     const elvis_vec3 noise = is_entry ? elvis_vec3(segment.entry_noise) : segment.noise;

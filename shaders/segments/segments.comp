@@ -38,9 +38,7 @@ layout(push_constant) uniform core_parameters {
 #define CORE_ASSUMED_CURVATURE elvis_real(64)
 #define CORE_CERTAIN_ITERATIONS 512u
 #define CORE_SEGMENT_ITERATIONS 640u
-#if CORE_HAS_CURVED
-#define CORE_REMEMBERS_ENTRY 1
-#endif
+#define CORE_REMEMBERS_ENTRY CORE_HAS_CURVED
 #include "segments/segment.glsl"
 #include "segments/neighbour_walk.glsl"
 #include "arithmetic/count.glsl"

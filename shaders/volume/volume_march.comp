@@ -46,7 +46,8 @@ layout(push_constant) uniform core_parameters {
 #define CORE_ASSUMED_CURVATURE elvis_real(16)
 #define CORE_CERTAIN_ITERATIONS 640u
 #define CORE_SEGMENT_ITERATIONS 704u
-#if CORE_HAS_CURVED
+// In double precision, the registers of graphics cards do not hold it.
+#if CORE_HAS_CURVED && (CORE_READS_TEXELS || !ELVIS_REAL_IS_DOUBLE)
 #define CORE_REMEMBERS_ENTRY 1
 #endif
 #include "segments/segment.glsl"
