@@ -133,6 +133,44 @@ void check_random(std::uint64_t n_volumes) {
 
 } // namespace
 
+TEST_CASE("where elements overlap the one entered first owns the ray, and the next one what is left of it") {
+    // Along x: [0, 2] with f = 1, [1, 3] with f = 2, and a gap to [4, 5] with f = 3; each glows in its own colour.
+    VolumeData data;
+    std::int64_t number = 0;
+    for (const auto& [low, high, value] : {std::tuple(1.0, 3.0, 2.0), {0.0, 2.0, 1.0}, {4.0, 5.0, 3.0}}) {
+        const double constant = value;
+        data.classes.push_back(make_class(
+            space_of(native::Shape::hexahedron, 1), space_of(native::Shape::hexahedron, 1),
+            boxes({low, -1, -1}, {high, 1, 1}, {1, 1, 1}), [constant](const Vector&) { return constant; }, number++));
+    }
+    const TemporaryFile file("overlapping.h5");
+    write_volume(file.path(), data);
+    const RuntimeVolume volume = open_volume(file.path());
+    FrameRequest request =
+        request_of({{{0, 0.3}}, {{1.5, {1, 0, 0}}, {1.5, {0, 1, 0}}, {2.5, {0, 1, 0}}, {2.5, {0, 0, 1}}}}, 16);
+    request.camera.orthographic = true;
+    request.camera.look_at = {2.5, 0, 0};
+    request.camera.height = 1;
+    // Of a length of one along x, not quite along which the rays go.
+    const double length = Vector(5.5, 0.45, 0.5).norm() / 5.5, one = std::exp(-0.3 * length), two = one * one;
+    const double left = one * two * one;
+    for (const Precision precision : {Precision::float32, Precision::float64}) {
+        Renderer renderer(device(), volume, precision);
+        for (const double from : {-3.0, 8.0}) {
+            request.camera.eye = {from, 0.45, 0.5};
+            // The first one that is entered has all of its length, two.
+            const std::array<double, 3> light = from < 0 ? std::array{1 - two, two * (1 - one), two * one * (1 - one)}
+                                                         : std::array{one * two * (1 - one), one * (1 - two), 1 - one};
+            const Frame frame = renderer.render(request);
+            CHECK(frame.counts.overlapping_elements == 2);
+            CHECK(largest_error(request, frame, [&](const Line&) {
+                      return Color{light[0] + left * request.background[0], light[1] + left * request.background[1],
+                                   light[2] + left * request.background[2], 1};
+                  }) < 1e-5);
+        }
+    }
+}
+
 TEST_CASE("a constant density lets through what its length says, whatever the elements") {
     const TemporaryFile file("constant.h5");
     const TransferFunction transfer{{{0, 0.3}}, {{0, {1, 0.5, 0}}}};
