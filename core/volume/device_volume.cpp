@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -168,6 +169,24 @@ void DeviceVolume::forget_fields(std::optional<std::uint32_t> only) {
         }
         slot->derivative_bounds.clear();
     }
+}
+
+void DeviceVolume::exclude_overlaps() {
+    assert(m_boxes.size() == 6 * m_volume.n_elements());
+    double largest = 0;
+    for (std::size_t at = 0; at < m_boxes.size(); at += 6) {
+        largest = std::max(largest, std::hypot(m_boxes[at + 3] - m_boxes[at], m_boxes[at + 4] - m_boxes[at + 1],
+                                               m_boxes[at + 5] - m_boxes[at + 2]));
+    }
+    m_overlap_length = static_cast<float>(largest);
+}
+
+float DeviceVolume::overlap_length() const {
+    const bool has_moved =
+        m_geometry_version > 1 || std::ranges::any_of(m_buffers, [](const PluginBuffer& buffer) {
+            return (buffer.info.depends & ELVIS_DEPENDS_ON_FIELD) == 0 && (buffer.info.depends & ELVIS_DEPENDS_ON_TIME) != 0;
+        });
+    return m_overlap_length && !has_moved ? *m_overlap_length : std::numeric_limits<float>::max();
 }
 
 void DeviceVolume::select(std::uint32_t field, std::uint32_t time_step, const std::vector<double>& offset) {

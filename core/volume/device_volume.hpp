@@ -66,9 +66,11 @@ public:
     /** Elements overlap: a point may lie in several of them. Kernels that are composed afterwards look for all. */
     void expect_overlaps() { m_has_overlaps = true; }
     bool has_overlaps() const { return m_has_overlaps; }
-    /** Elements do not overlap, of the shape that they have now. */
-    void exclude_overlaps() { m_version_without_overlaps = m_geometry_version; }
-    bool excludes_overlaps() const { return m_version_without_overlaps == m_geometry_version; }
+    /** Elements do not overlap, of the shape in which the plugin maps them. Before something is first selected. */
+    void exclude_overlaps();
+    /** Over this length at most elements may overlap: that of the largest one, because smaller overlaps may lie between samples
+     * (core/probe/overlaps.hpp); the largest float where nothing is known. */
+    float overlap_length() const;
     /** Changes whenever select() has given the elements another shape. */
     std::uint64_t geometry_version() const { return m_geometry_version; }
 
@@ -191,7 +193,7 @@ private:
     std::uint32_t m_time_step = 0;
     bool m_has_elements = false;
     bool m_has_overlaps = false;
-    std::optional<std::uint64_t> m_version_without_overlaps;
+    std::optional<float> m_overlap_length;
     std::uint64_t m_geometry_version = 0;
     double m_upload_milliseconds = 0;
     double m_hierarchy_milliseconds = 0;

@@ -31,8 +31,8 @@ layout(push_constant) uniform core_parameters {
     uint core_zero;
     // The diagonal of the volume's bounds; what its positions are off before any of it is evaluated.
     float core_extent, core_data_error;
-    // How far before the end of the last walk starts are looked for.
-    float core_look_back;
+    // Elements may overlap over this length: as far before the end of the last walk starts are looked for.
+    float core_overlap_length;
 };
 
 #if CORE_RAYS_ARE_GIVEN
@@ -229,7 +229,7 @@ core_start_search core_search_begin(CORE_STATE state, elvis_real least_t, elvis_
     search.at_error = elvis_real(0);
 #endif
     search.is_first = state.walk.global_start_element == CORE_NO_ELEMENT;
-    search.from = search.is_first ? least_t : max(state.walk.start, state.walk.done - elvis_real(core_look_back) / speed);
+    search.from = search.is_first ? least_t : max(state.walk.start, state.walk.done - elvis_real(core_overlap_length) / speed);
 #if CORE_RAYS_ARE_GIVEN
     search.list = 0u;
     search.n_entries = is_mine ? 1u : 0u;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace elvis {
 
@@ -15,8 +14,6 @@ namespace {
 /** Words of a tile's list: shaders/tiles/ray_tiles.glsl. */
 constexpr std::uint32_t walk_tile_stride = 64;
 constexpr std::uint32_t walk_group_size = 32;
-/** Before where the last walk ended, elements begin that overlap those that it went through; as far as it went. */
-constexpr float far = std::numeric_limits<float>::max();
 enum EyeCount : std::size_t { eye_evaluations, eye_overlaps };
 
 struct WalkTilesParameters {
@@ -38,7 +35,7 @@ struct SeekParameters {
     std::uint32_t first_element;
     std::uint32_t zero;
     float extent, data_error;
-    float look_back;
+    float overlap_length;
 };
 
 /** Of positions, which solvers and converters have rounded in double precision: see shaders/cut_surface/element_candidate.glsl.
@@ -159,15 +156,8 @@ void WalkSearch::seek(std::size_t index, const WalkRays& rays, const RayGroups& 
     if (m_walk_data.n_starts(m_ranges[index].element_class) == 0) {
         return;
     }
-    const SeekParameters parameters{rays.width,
-                                    rays.height,
-                                    tiles_a_row(rays.width),
-                                    0,
-                                    m_ranges[index].first_element,
-                                    0,
-                                    m_extent,
-                                    m_data_error,
-                                    m_data.excludes_overlaps() ? 1e-3F * m_extent : far};
+    const SeekParameters parameters{rays.width, rays.height,  tiles_a_row(rays.width), 0, m_ranges[index].first_element, 0,
+                                    m_extent,   m_data_error, m_data.overlap_length()};
     // No lists are read where rays are given: anything.
     const std::array<const Buffer*, 5> bindings = {&rays.frame, &rays.states,
                                                    m_are_given ? &m_counts : &*m_kernels[index].lists, &m_counts,
