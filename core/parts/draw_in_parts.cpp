@@ -84,9 +84,6 @@ bool has_wide_lines(const Surface& surface) {
 
 void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
     for (const Surface& surface : request.surfaces) {
-        if (surface.opacity < 1 && surface.has_lines() && !meets_rays_once(surface)) {
-            refuse(scene, "lines on a surface that can be seen through and is no plane");
-        }
         const WireFrame* const wires = traits_of(surface.geometry).wires;
         if (wires != nullptr && wires->is_undeformed) {
             refuse(scene, "edges without the warp");

@@ -1,6 +1,6 @@
 #include <core/parts/fold.hpp>
 
-#include <core/camera/camera_ray.hpp>
+#include <core/parts/line_doubts.hpp>
 #include <core/render/bands.hpp>
 #include <core/render/picture/frame_read.hpp>
 
@@ -43,12 +43,6 @@ struct Shown {
 
 bool is_nearer(const PartPixel& one, const PartPixel* than) { return than == nullptr || one.depth < than->depth; }
 
-/** All have it at one depth; lines that end in the pixel are seen by parts whose elements are beside it. */
-bool is_better_outside(const PartPixel& one, const PartPixel* than) {
-    constexpr std::uint32_t lines = pixel_flag::contour | pixel_flag::mesh_line;
-    return than == nullptr || std::popcount(one.flags & lines) > std::popcount(than->flags & lines);
-}
-
 std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPixels> parts) {
     std::vector<Shown> shown(n_pixels);
     for (const PartPixels& one : parts) {
@@ -62,7 +56,7 @@ std::vector<Shown> nearest(std::size_t n_pixels, std::span<const PartPixels> par
             } else if (pixel.is_own == 0 && pixel.is_hit() && is_nearer(pixel, here.other)) {
                 here.other = &pixel;
             } else if (pixel.is_outside()) {
-                here.outside = is_better_outside(pixel, here.outside) ? &pixel : here.outside;
+                here.outside = here.outside == nullptr || is_better_outside(pixel, *here.outside) ? &pixel : here.outside;
                 here.outside_doubt |= pixel.flags;
             }
         }
@@ -91,18 +85,12 @@ std::uint32_t as_open(std::uint32_t flags) {
            ((flags & pixel_flag::mesh_line) != 0 ? pixel_flag::mesh_line_undecided : 0);
 }
 
-/** What is found is no longer open. */
-std::uint32_t settled(std::uint32_t flags) {
-    flags &= (flags & pixel_flag::contour) != 0 ? ~pixel_flag::contour_undecided : ~0u;
-    return flags & ((flags & pixel_flag::mesh_line) != 0 ? ~pixel_flag::mesh_line_undecided : ~0u);
-}
-
 void write_pixels(const std::vector<Shown>& shown, Frame& frame) {
     for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
         const std::uint32_t beside = shown[pixel].beside;
-        frame.flags[pixel] = settled(shown[pixel].doubt | beside);
+        frame.flags[pixel] = settled_lines(shown[pixel].doubt | beside);
         if (const PartPixel* const from = shown[pixel].own) {
-            frame.flags[pixel] = settled(shown[pixel].doubt | as_open(beside) | from->flags);
+            frame.flags[pixel] = settled_lines(shown[pixel].doubt | as_open(beside) | from->flags);
             frame.element[pixel] = from->element;
             frame.value[pixel] = from->value;
             frame.depth[pixel] = from->depth;
@@ -119,105 +107,8 @@ void join_edges(std::span<const PartPixels> parts, Frame& frame) {
             frame.flags[pixel.pixel] |= pixel.flags & (pixel_flag::mesh_line | pixel_flag::mesh_line_undecided);
         }
     }
-    std::ranges::transform(frame.flags, frame.flags.begin(), settled);
+    std::ranges::transform(frame.flags, frame.flags.begin(), settled_lines);
 }
-
-/** Of the widest lines, in pixels; 0 if there are none. */
-double width_of_lines(const FrameRequest& request) {
-    double width = 0;
-    for (const Surface& surface : request.surfaces) {
-        width = surface.contours ? std::max(width, surface.contours->style.width) : width;
-        width = surface.mesh_lines ? std::max(width, surface.mesh_lines->style.width) : width;
-    }
-    return width;
-}
-
-std::uint32_t open_lines(const FrameRequest& request) {
-    std::uint32_t flags = 0;
-    for (const Surface& surface : request.surfaces) {
-        flags |= surface.contours ? pixel_flag::contour_undecided : 0;
-        flags |= surface.mesh_lines ? pixel_flag::mesh_line_undecided : 0;
-    }
-    return flags;
-}
-
-/** Elements that a part shows. */
-std::vector<std::int64_t> elements_seen(std::size_t n_pixels, const PartPixels& part) {
-    std::vector<std::int64_t> elements(n_pixels, -1);
-    for (const PartPixel& pixel : part.pixels) {
-        elements[pixel.pixel] = pixel.element;
-    }
-    return elements;
-}
-
-/**
- * Flags lines of pixels near which their part does not see what the picture shows. Lines of one pixel depend on what lies in
- * the pixel, so on neighbours that show the same surface; wide ones on all from where they reach the pixel.
- */
-class LineDoubts {
-public:
-    LineDoubts(const FrameRequest& request, const PixelBlock& block, Frame& frame)
-        : m_request(request), m_block(block), m_width(width_of_lines(request)), m_reach(line_reach(m_width)),
-          m_flags(open_lines(request)), m_frame(frame) {}
-
-    void flag(std::span<const PartPixels> parts, const std::vector<Shown>& shown) {
-        for (std::size_t index = 0; m_flags != 0 && index < parts.size(); ++index) {
-            const std::vector<std::int64_t> seen = elements_seen(shown.size(), parts[index]);
-            for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
-                const PartPixel* const from = shown[pixel].own;
-                const bool is_of_part = from != nullptr && from->is_hit() && shown[pixel].part == parts[index].part;
-                if (is_of_part && is_open(pixel, seen)) {
-                    doubt(pixel);
-                }
-            }
-        }
-    }
-
-private:
-    bool is_open(std::size_t pixel, const std::vector<std::int64_t>& seen) const {
-        const auto width = static_cast<std::ptrdiff_t>(m_frame.width), height = static_cast<std::ptrdiff_t>(m_frame.height);
-        const auto place = static_cast<std::ptrdiff_t>(pixel);
-        const std::ptrdiff_t column = place % width, row = place / width;
-        for (std::ptrdiff_t y = std::max<std::ptrdiff_t>(0, row - m_reach); y <= std::min(height - 1, row + m_reach); ++y) {
-            for (std::ptrdiff_t x = std::max<std::ptrdiff_t>(0, column - m_reach); x <= std::min(width - 1, column + m_reach);
-                 ++x) {
-                const auto there = static_cast<std::size_t>(y * width + x);
-                if (seen[there] != m_frame.element[there] && (m_width > 1 || may_be_one_surface(pixel, there))) {
-                    return true;
-                }
-            }
-        }
-        return false;
-    }
-
-    Vector3 point_seen(std::size_t pixel) const {
-        const PicturePart part = m_request.place();
-        const PictureSize size{static_cast<double>(m_request.width), static_cast<double>(part.of_height)};
-        const PicturePoint place{static_cast<double>(m_block.first_column + pixel % m_block.width) + 0.5,
-                                 static_cast<double>(part.first_row + m_block.first_row + pixel / m_block.width) + 0.5};
-        return ray_through(m_request.camera, size, place).at(m_frame.depth[pixel]);
-    }
-
-    /** Not where the way from one point to the other leads out of the surface rather than along it. */
-    bool may_be_one_surface(std::size_t pixel, std::size_t other) const {
-        constexpr double steepest = 0.7; // More than surfaces bend within a pixel, unless they are hardly resolved.
-        if (m_frame.element[other] < 0) {
-            return true;
-        }
-        const Vector3 way = minus(point_seen(other), point_seen(pixel));
-        const Vector3 normal{m_frame.normal[3 * pixel], m_frame.normal[3 * pixel + 1], m_frame.normal[3 * pixel + 2]};
-        return !(std::abs(dot(normal, way)) > steepest * length(way));
-    }
-
-    void doubt(std::size_t pixel) { m_frame.flags[pixel] = settled(m_frame.flags[pixel] | m_flags); }
-
-    const FrameRequest& m_request;
-    const PixelBlock& m_block;
-    double m_width;
-    int m_reach;
-    std::uint32_t m_flags;
-    Frame& m_frame;
-};
 
 /** A run, and whose it is. */
 struct OwnedRun {
@@ -284,6 +175,11 @@ void crop(Frame& frame, const PixelBlock& block, const PixelBlock& kept) {
 
 } // namespace
 
+bool is_better_outside(const PartPixel& one, const PartPixel& than) {
+    constexpr std::uint32_t lines = pixel_flag::contour | pixel_flag::mesh_line;
+    return std::popcount(one.flags & lines) > std::popcount(than.flags & lines);
+}
+
 std::uint32_t doubts_of(const PartPixel& pixel) {
     const bool others_know_better = pixel.is_outside() || (pixel.is_hit() && pixel.is_own == 0);
     return pixel.flags & (others_know_better ? misses : own_doubts);
@@ -292,14 +188,6 @@ std::uint32_t doubts_of(const PartPixel& pixel) {
 bool meets_rays_once(const Surface& surface) {
     const SurfaceTraits traits = traits_of(surface.geometry);
     return traits.plane != nullptr || traits.wires != nullptr;
-}
-
-std::uint32_t reach_of_fold(const FrameRequest& request) {
-    std::uint32_t reach = 0;
-    if (open_lines(request) != 0) {
-        reach = static_cast<std::uint32_t>(line_reach(width_of_lines(request)));
-    }
-    return reach;
 }
 
 Frame empty_block(const FrameRequest& request, const PixelBlock& block, Precision precision) {
@@ -334,7 +222,13 @@ Frame folded(const FrameRequest& request, const PixelBlock& block, const PixelBl
     if (traits_of(request.surfaces[0].geometry).wires != nullptr) {
         join_edges(parts, frame);
     }
-    LineDoubts(request, block, frame).flag(parts, shown);
+    std::vector<LayerOfPart> sources(shown.size());
+    for (std::size_t pixel = 0; pixel < shown.size(); ++pixel) {
+        if (shown[pixel].own != nullptr && shown[pixel].own->is_hit()) {
+            sources[pixel] = {shown[pixel].part, 0};
+        }
+    }
+    LineDoubts(request, block, parts).flag(sources, frame);
     crop(frame, block, kept);
     return frame;
 }
@@ -357,6 +251,13 @@ std::uint32_t merged_flags(std::uint32_t picture, std::uint32_t surface, bool is
     const std::uint32_t front = is_nearest ? surface : picture, back = is_nearest ? picture : surface;
     const std::uint32_t staying = back & (is_drawn ? own_doubts : lower_half);
     return (front & lower_half) | ((front | back) & ~lower_half) | (staying << half_bits);
+}
+
+std::uint32_t doubt_behind(std::uint32_t flags) {
+    constexpr std::uint32_t colors = pixel_flag::undecided | pixel_flag::overlap | pixel_flag::range_too_fine,
+                            lines = pixel_flag::contour_undecided | pixel_flag::mesh_line_undecided;
+    const std::uint32_t doubt = flags & colors;
+    return (doubt | ((settled_lines(flags & lower_half) & lines) != 0 ? pixel_flag::undecided : 0)) << half_bits;
 }
 
 void add_surface(const Frame& surface, Frame& picture) {
@@ -401,7 +302,7 @@ void add_surface_facts(const Frame& surface, std::size_t index, Frame& picture) 
 
 void finish_surfaces(Frame& picture) {
     for (std::uint32_t& flags : picture.flags) {
-        flags = settled((flags | flags >> half_bits) & lower_half);
+        flags = settled_lines((flags | flags >> half_bits) & lower_half);
     }
 }
 

@@ -15,11 +15,7 @@
 
 namespace elvis {
 
-/** What a part shows of a block of pixels, or its light there; pixels are counted in the block. */
-struct PartPixels {
-    std::uint32_t part = 0;
-    std::vector<PartPixel> pixels;
-};
+/** Light of a part in a block of pixels, which are counted in the block. */
 struct PartRuns {
     std::uint32_t part = 0;
     std::vector<LightRun> runs;
@@ -27,8 +23,9 @@ struct PartRuns {
 
 /** Not again behind where they meet it. */
 bool meets_rays_once(const Surface& surface);
-/** How many pixels around a pixel must be known to put it together. */
-std::uint32_t reach_of_fold(const FrameRequest& request);
+/** Of surfaces that lie in no element: all have it at one depth, and lines that end in the pixel are seen by parts whose
+ * elements are beside it. */
+bool is_better_outside(const PartPixel& one, const PartPixel& than);
 
 /** Background alone. */
 Frame empty_block(const FrameRequest& request, const PixelBlock& block, Precision precision);
@@ -53,6 +50,8 @@ inline constexpr double same_depth = 1e-4;
 void add_surface(const Frame& surface, Frame& picture);
 /** Of one pixel: its flags with those of a surface that it shows, if it is the nearest, or hides. */
 std::uint32_t merged_flags(std::uint32_t picture, std::uint32_t surface, bool is_drawn, bool is_nearest);
+/** Of a surface with these flags that is seen through a transparent one: to be added to the pixel's. */
+std::uint32_t doubt_behind(std::uint32_t flags);
 /** When all are added: flags as callers know them. */
 void finish_surfaces(Frame& picture);
 

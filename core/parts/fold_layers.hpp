@@ -24,9 +24,11 @@ struct FoldedLayers {
 /**
  * Of what parts show, the nearest first in each pixel, all that they own. Where two parts each own what may be one crossing, or
  * where none owns what others see, rounding decides: it is there once, and flagged as undecided (256). Outside of elements the
- * surface lies where no part has an element. `diagonal`: of the whole volume's bounds.
+ * surface lies where no part has an element. `request`, `block`, `kept`, `diagonal`: as of folded(). Lines are flagged as
+ * there, by what is seen of the surface for the first time, the second time and so on.
  */
-FoldedLayers folded_layers(std::size_t n_pixels, std::span<const PartPixels> parts, double diagonal);
+FoldedLayers folded_layers(const FrameRequest& request, const PixelBlock& block, const PixelBlock& kept,
+                           std::span<const PartPixels> parts, double diagonal);
 /** Of a surface that rays meet once: its pixels (folded()). */
 FoldedLayers one_layer(const Frame& surface);
 

@@ -62,6 +62,11 @@ void add_pixels(const Frame& frame, const std::function<bool(std::int64_t)>& is_
 
 } // namespace
 
+std::uint32_t settled_lines(std::uint32_t flags) {
+    flags &= (flags & pixel_flag::contour) != 0 ? ~pixel_flag::contour_undecided : ~0u;
+    return flags & ((flags & pixel_flag::mesh_line) != 0 ? ~pixel_flag::mesh_line_undecided : ~0u);
+}
+
 PartPicture part_picture(std::uint32_t part, Frame frame, const std::function<bool(std::int64_t)>& is_own) {
     PartPicture picture;
     picture.part = part;

@@ -35,6 +35,15 @@ struct PartPixel {
     bool is_outside() const { return element < 0 && !std::isnan(depth); }
 };
 
+/** What a part shows of a block of pixels, which are counted in the block; of layers, one after the other. */
+struct PartPixels {
+    std::uint32_t part = 0;
+    std::vector<PartPixel> pixels;
+};
+
+/** Flags without open lines where such a line is found. */
+std::uint32_t settled_lines(std::uint32_t flags);
+
 struct PartPicture {
     std::uint32_t part = 0;
     /** Ascending; of layers, each by itself. */

@@ -2,6 +2,7 @@
 
 #include <core/base/milliseconds.hpp>
 #include <core/parts/collect_tiles.hpp>
+#include <core/parts/line_doubts.hpp>
 
 #include <algorithm>
 #include <array>
@@ -92,7 +93,7 @@ SharedFrame SharedFold::surface(const FrameRequest& alone, const DrawParts& draw
 
 void SharedFold::add_layers(const FrameRequest& alone, const DrawParts& draw, std::size_t index, SharedFrame& picture) {
     const bool is_met_once = meets_rays_once(alone.surfaces[0]);
-    const std::uint32_t reach = is_met_once ? reach_of_fold(alone) : 0;
+    const std::uint32_t reach = reach_of_fold(alone);
     std::vector<std::byte> facts;
     const ReceivedParcels<PartPixel> received = exchanged(draw, reach, facts);
     if (picture.layers.empty()) {
@@ -104,9 +105,9 @@ void SharedFold::add_layers(const FrameRequest& alone, const DrawParts& draw, st
     for (std::size_t k = 0; k < tiles.size(); ++k) {
         const PixelBlock block = m_shares.block(tiles[k], reach);
         const auto parts = parts_in(received, tiles[k], block, m_request.width, &PartPixels::pixels);
-        picture.layers[k].add(is_met_once
-                                  ? one_layer(folded(alone, block, m_shares.block(tiles[k]), parts, m_diagonal, m_precision))
-                                  : folded_layers(block.n_pixels(), parts, m_diagonal),
+        const PixelBlock kept = m_shares.block(tiles[k]);
+        picture.layers[k].add(is_met_once ? one_layer(folded(alone, block, kept, parts, m_diagonal, m_precision))
+                                          : folded_layers(alone, block, kept, parts, m_diagonal),
                               picture.tiles[k]);
     }
     add_surface_facts(folded_facts(alone, facts_in(m_team.gathered(std::move(facts)))), index, picture.facts);

@@ -37,8 +37,8 @@ layout(push_constant) uniform core_parameters {
 // stay; of what is seen through something transparent, doubt does, too.
 uint core_merged_flags(core_mark layer, uint old_flags, bool is_drawn, bool is_nearest, bool is_seen_through) {
     const uint front_flags = is_nearest ? layer.flags : old_flags, back_flags = is_nearest ? old_flags : layer.flags;
-    const uint doubt = is_seen_through ? CORE_FLAG_UNDECIDED | CORE_FLAG_OVERLAP : 0u;
-    const uint staying = back_flags & (is_drawn ? CORE_FLAGS_STAY | doubt : 0xffffu);
+    const uint doubt = is_seen_through ? core_doubt_behind(back_flags & 0xffffu) : 0u;
+    const uint staying = (back_flags & (is_drawn ? CORE_FLAGS_STAY : 0xffffu)) | doubt;
     return front_flags | (back_flags & 0xffff0000u) | CORE_STAYING(staying);
 }
 

@@ -99,6 +99,18 @@ core_mark core_mark_of(uvec4 two, uint pixel) {
 
 // Flags of a surface that stay where it is not seen: it may have missed something in front.
 #define CORE_FLAGS_STAY (CORE_FLAG_NEWTON_FAILURE | CORE_FLAG_ISOSURFACE_UNDECIDED | CORE_FLAG_WORK_LIMIT | CORE_FLAG_ESTIMATED)
+// Flags without open lines where such a line is found: one element may decide what another leaves open.
+uint core_settled_lines(uint flags) {
+    flags &= (flags & CORE_FLAG_CONTOUR) != 0u ? ~CORE_FLAG_CONTOUR_UNDECIDED : 0xffffffffu;
+    return flags & ((flags & CORE_FLAG_MESH_LINE) != 0u ? ~CORE_FLAG_MESH_UNDECIDED : 0xffffffffu);
+}
+
+// Doubt about colours, of a surface that is seen through a transparent one. Whether lines are open tells of the nearest surface alone.
+uint core_doubt_behind(uint flags) {
+    const uint open_lines = core_settled_lines(flags) & (CORE_FLAG_CONTOUR_UNDECIDED | CORE_FLAG_MESH_UNDECIDED);
+    return (flags & (CORE_FLAG_UNDECIDED | CORE_FLAG_OVERLAP | CORE_FLAG_RANGE_TOO_FINE)) | (open_lines != 0u ? CORE_FLAG_UNDECIDED : 0u);
+}
+
 // Where they stay, apart from those of what is seen.
 #define CORE_STAYING(flags) ((flags) << 16)
 // Rounding decides whether the surface has something in front of what was found.

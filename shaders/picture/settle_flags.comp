@@ -20,10 +20,7 @@ layout(push_constant) uniform core_parameters {
 
 uint core_settled(uint flags) {
     // The upper half: of surfaces that are not seen there (picture/merge.comp).
-    flags = (flags | flags >> CORE_N_FLAGS) & CORE_PICTURE_FLAGS;
-    // One element may decide what another leaves open.
-    flags &= (flags & CORE_FLAG_CONTOUR) != 0u ? ~CORE_FLAG_CONTOUR_UNDECIDED : 0xffffu;
-    return flags & ((flags & CORE_FLAG_MESH_LINE) != 0u ? ~CORE_FLAG_MESH_UNDECIDED : 0xffffu);
+    return core_settled_lines((flags | flags >> CORE_N_FLAGS) & CORE_PICTURE_FLAGS);
 }
 
 void core_add(uint index, uint n_met) {

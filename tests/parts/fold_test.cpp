@@ -1,5 +1,6 @@
 // What is shown of pixels that several parts see.
 #include <core/parts/fold_layers.hpp>
+#include <core/parts/line_doubts.hpp>
 
 #include <catch2/catch.hpp>
 
@@ -59,7 +60,12 @@ TEST_CASE("Layers are all that parts own, each crossing once") {
     parts[0].pixels.push_back(seen(3, 5, near, around));
     parts[1].pixels.push_back(seen(3, 5, near, own));
     parts[1].pixels.push_back(seen(4, -1, nothing, around, pixel_flag::isosurface_undecided));
-    const FoldedLayers folded = folded_layers(5, parts, 1);
+    FrameRequest request;
+    request.width = 5;
+    request.height = 1;
+    request.surfaces.resize(1);
+    const PixelBlock all{0, 0, 5, 1};
+    const FoldedLayers folded = folded_layers(request, all, all, parts, 1);
     std::vector<std::array<std::int64_t, 3>> found;
     for (const PartPixel& crossing : folded.crossings) {
         found.push_back({crossing.pixel, crossing.element, crossing.flags});

@@ -114,7 +114,6 @@ TEST_CASE("What cannot be drawn in parts is refused") {
         return error_of([&] { stage.in_parts(stage.scene(keys), 2); }).find("cannot be drawn in parts yet") !=
                std::string::npos;
     };
-    CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5, "mesh_lines": {}}])"));
     CHECK(refused(R"("surfaces": [{"type": "boundary", "opacity": 0.5, "lic": {"field": "velocity"}}])"));
     CHECK(refused(R"("threshold": "sphere > 0.2", "lic": {"field": "velocity"})"));
     CHECK(refused(R"("surfaces": [{"type": "boundary", "clip": [[1, 0, 0, 0]], "lic": {"field": "velocity"}}])"));

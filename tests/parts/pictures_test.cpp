@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
+#include <span>
 
 using namespace elvis;
 using namespace elvis::test;
@@ -165,15 +166,22 @@ TEST_CASE("Surfaces that can be seen through are in parts those of the whole") {
                                             "mesh_lines": {}},
                                            {"type": "plane", "plane": [1, 0, 0, 0.1], "opacity": 0.5, "mesh_lines": {"width": 3}},
                                            {"type": "wireframe", "opacity": 0.5}])"},
+        {"lines on curved surfaces",
+         R"("surfaces": [{"type": "boundary", "opacity": 0.5, "contours": {"count": 4}, "mesh_lines": {}},
+                         {"type": "sphere", "center": [0, 0, 0], "radius": 0.7, "opacity": 0.6, "outside": [1, 0.9, 0.2],
+                          "contours": {"count": 4}, "mesh_lines": {}}])"},
+        {"wide lines on the boundary", R"("surfaces": [{"type": "boundary", "opacity": 0.5, "mesh_lines": {"width": 3}}])"},
     };
     Stage hexahedra(R"({"generator": 1, "mesh": "waves", "elements": [5, 4, 4], "order": 3, "field": "waves"})");
     Stage mixed(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "geometry_order": 2, "order": 3,
                     "field": "waves"})");
-    for (const Picture& picture : pictures) {
+    for (const Picture& picture : std::span(pictures).first(5)) {
         compare(hexahedra, picture, 5);
     }
-    compare(mixed, pictures[2], 3);
-    compare(mixed, pictures[3], 3);
+    compare(hexahedra, pictures[5], 2);
+    for (const Picture& picture : std::span(pictures).subspan(2, 2)) {
+        compare(mixed, picture, 3);
+    }
 }
 
 TEST_CASE("Where surfaces lie in no element they have in parts the colour that they have in the whole") {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace elvis::oracle {
 namespace {
@@ -70,6 +71,41 @@ TEST_CASE("Pixels are counted by their flags, and what is decided is not undecid
     CHECK(brief.flags.empty());
     CHECK(brief.counts.undecided_contour_pixels == counts.undecided_contour_pixels);
     CHECK(brief.counts.hit_pixels == counts.hit_pixels);
+}
+
+TEST_CASE("Open lines of a surface that is seen through a transparent one leave doubt, whatever comes first") {
+    const TemporaryFile file("seen_through.h5");
+    generate(R"({"generator": 1, "mesh": "ball", "shape": "mixed", "elements": [2, 2, 2], "order": 3, "geometry_order": 2,)"
+             R"( "field": "waves"})",
+             file.path());
+    const RuntimeVolume volume = open_volume(file.path());
+    Renderer renderer(test::device(), volume, Precision::float32);
+    FrameRequest request = lines_and_isosurface();
+    request.surfaces.pop_back();
+    request.surfaces[0].geometry = Sphere{{0, 0, 0}, 0.45};
+    const Frame alone = renderer.render(request);
+    Surface glass;
+    glass.geometry = CutPlane{{0.8, -0.6, 0.4, -0.6}};
+    glass.opacity = 0.3;
+    glass.colors = request.surfaces[0].colors;
+    // Before an opaque surface, and before a transparent one that is drawn earlier or later.
+    for (const auto& [opacity, is_first] : {std::pair(1.0, false), {0.9, false}, {0.9, true}}) {
+        FrameRequest both = request;
+        both.surfaces[0].opacity = opacity;
+        both.surfaces.insert(is_first ? both.surfaces.begin() : both.surfaces.end(), glass);
+        const Frame frame = renderer.render(both);
+        std::size_t n_open = 0, n_silent = 0;
+        for (std::size_t pixel = 0; pixel < alone.flags.size(); ++pixel) {
+            const bool is_open = (alone.flags[pixel] & (pixel_flag::contour_undecided | pixel_flag::mesh_line_undecided)) != 0;
+            if (is_open && frame.depth[pixel] < alone.depth[pixel] - 0.01) {
+                ++n_open;
+                n_silent += (frame.flags[pixel] & pixel_flag::undecided) == 0 ? 1 : 0;
+                CHECK((frame.flags[pixel] & pixel_flag::contour_undecided) == 0);
+            }
+        }
+        CHECK(n_open > 50);
+        CHECK(n_silent == 0);
+    }
 }
 
 } // namespace elvis::oracle
