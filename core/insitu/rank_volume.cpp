@@ -282,7 +282,8 @@ void RankVolume::find_faces() {
 
 void RankVolume::serve_own() {
     m_whole.emplace(serve_native(m_source, m_name, &m_control));
-    m_parted = parted_native(m_source, *m_whole, &m_control, mapping_of_ranks(*m_whole, *m_partition, m_team));
+    m_parted = parted_native({.source = m_source, .shared_mapping = mapping_of_ranks(*m_whole, *m_partition, m_team)}, *m_whole,
+                             &m_control);
     if (!m_own_elements.empty()) {
         m_own.emplace(m_parted->open(m_own_elements));
     }

@@ -84,10 +84,6 @@ bool has_wide_lines(const Surface& surface) {
 
 void need_parts_can_draw(const FrameRequest& request, const Scene& scene) {
     for (const Surface& surface : request.surfaces) {
-        const WireFrame* const wires = traits_of(surface.geometry).wires;
-        if (wires != nullptr && wires->is_undeformed) {
-            refuse(scene, "edges without the warp");
-        }
         if (surface.lic && surface.opacity < 1) {
             refuse(scene, "line integral convolution on a surface that can be seen through");
         }

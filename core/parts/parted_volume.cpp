@@ -18,27 +18,31 @@ namespace {
 
 class PartedNative final : public PartedVolume {
 public:
-    PartedNative(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole, const TaskControl* control,
-                 MappingReader shared_mapping)
-        : m_source(std::move(source)), m_whole(whole), m_control(control), m_shared_mapping(std::move(shared_mapping)) {}
+    PartedNative(NativeParts from, const RuntimeVolume& whole, const TaskControl* control)
+        : m_from(std::move(from)), m_whole(whole), m_control(control) {}
 
     const RuntimeVolume& whole() const override { return m_whole; }
     OpenedElements open(std::span<const std::uint64_t> elements) const override {
-        auto part = std::make_shared<const PartVolume>(m_source, by_class(m_whole, elements));
+        const std::vector<std::vector<std::uint64_t>> chosen = by_class(m_whole, elements);
         elvis_volume* served = nullptr;
-        RuntimeVolume volume = serve_native(std::move(part), m_whole.path(), m_control, &served);
+        RuntimeVolume volume =
+            serve_native(std::make_shared<const PartVolume>(m_from.source, chosen), m_whole.path(), m_control, &served);
+        if (m_from.undeformed) {
+            volume.set_undeformed([source = m_from.undeformed, chosen, name = m_whole.path(), control = m_control] {
+                return serve_native(std::make_shared<const PartVolume>(source, chosen), name, control);
+            });
+        }
         return {std::move(volume), [served] { native::forget_fields(served); }};
     }
     bool tells_extrema(std::uint32_t field, std::uint32_t time_step) const override {
-        return !m_source->read_extrema(field, time_step).empty();
+        return !m_from.source->read_extrema(field, time_step).empty();
     }
-    MappingReader shared_mapping() const override { return m_shared_mapping; }
+    MappingReader shared_mapping() const override { return m_from.shared_mapping; }
 
 private:
-    std::shared_ptr<const native::VolumeSource> m_source;
+    NativeParts m_from;
     const RuntimeVolume& m_whole;
     const TaskControl* m_control;
-    MappingReader m_shared_mapping;
 };
 
 class PartedByPlugin final : public PartedVolume {
@@ -58,9 +62,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<PartedVolume> parted_native(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole,
-                                            const TaskControl* control, MappingReader shared_mapping) {
-    return std::make_unique<PartedNative>(std::move(source), whole, control, std::move(shared_mapping));
+std::unique_ptr<PartedVolume> parted_native(NativeParts from, const RuntimeVolume& whole, const TaskControl* control) {
+    return std::make_unique<PartedNative>(std::move(from), whole, control);
 }
 
 void need_element_records(const RuntimeVolume& volume) {

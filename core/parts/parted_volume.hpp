@@ -43,12 +43,20 @@ public:
     virtual MappingReader shared_mapping() const { return {}; }
 };
 
+/** What a native volume in parts is read from. */
+struct NativeParts {
+    std::shared_ptr<const native::VolumeSource> source;
+    /** Of a displaced volume the same elements where they were; else null. */
+    std::shared_ptr<const native::VolumeSource> undeformed{};
+    /** PartedVolume::shared_mapping. */
+    MappingReader shared_mapping{};
+};
+
 /**
- * `whole` serves `source`. Of coefficients only those of the elements are read. Whole and `control`, if there is one, must
+ * `whole` serves the source. Of coefficients only those of the elements are read. Whole and `control`, if there is one, must
  * outlive it.
  */
-std::unique_ptr<PartedVolume> parted_native(std::shared_ptr<const native::VolumeSource> source, const RuntimeVolume& whole,
-                                            const TaskControl* control, MappingReader shared_mapping = {});
+std::unique_ptr<PartedVolume> parted_native(NativeParts from, const RuntimeVolume& whole, const TaskControl* control);
 
 /** Throws Error for a plugin that does not say that records belong to elements (ELVIS_SNIPPET_ELEMENT_RECORDS). */
 void need_element_records(const RuntimeVolume& volume);

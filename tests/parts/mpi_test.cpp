@@ -182,6 +182,28 @@ TEST_CASE("Films: groups of processes draw pictures of their own, with the bytes
     CHECK(folder.read("many/frame_0003.png") == folder.read("one/frame_0003.png"));
 }
 
+TEST_CASE("What sways is drawn in parts as in one piece, with its edges where they were") {
+    const MpiFolder folder;
+    folder.write("sway.json",
+                 R"({"generator": 1, "mesh": "box", "elements": [4, 3, 3], "fields": ["sphere", "taylor-green"], "order": 2})");
+    REQUIRE(folder.run("convert sway.json -o sway.h5").status == 0);
+    folder.write("film.json", R"({"version": 1, "volume": {"path": "sway.h5"}, "image": {"size": [80, 60]},
+        "warp": {"field": "velocity", "factor": 0.3}, "animation": {"phases": 3}, "surfaces": [{"type": "boundary"},
+            {"type": "wireframe", "undeformed": true, "color": [0.9, 0.1, 0.1]}]})");
+    REQUIRE(folder.run("render film.json -o whole").status == 0);
+    REQUIRE(folder.run("render film.json --parts 2 -o one").status == 0);
+    const Outcome outcome = folder.launch("-n 4 \"$E\" render film.json --parts 2 -o many");
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    for (const std::string picture : {"0", "1", "2"}) {
+        INFO("picture " << picture);
+        const std::string whole = folder.read("whole/frame_000" + picture + ".png");
+        CHECK(folder.read("one/frame_000" + picture + ".png") == whole);
+        CHECK(folder.read("many/frame_000" + picture + ".png") == whole);
+    }
+    CHECK(folder.read("one/frame_0000.png") != folder.read("one/frame_0001.png"));
+}
+
 TEST_CASE("Parts of a file are drawn by processes, too") {
     const MpiFolder folder;
     std::string parts;

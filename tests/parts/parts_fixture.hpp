@@ -62,7 +62,7 @@ public:
     }
 
     std::unique_ptr<VolumeInParts> open_parts(Partition partition) {
-        m_parted = m_way == Way::native ? parted_native(source(), *m_whole, nullptr) : parted_by_plugin(*m_whole);
+        m_parted = m_way == Way::native ? parted_native({source()}, *m_whole, nullptr) : parted_by_plugin(*m_whole);
         return std::make_unique<VolumeInParts>(*m_parted, device(), m_precision, std::move(partition), m_alone);
     }
 

@@ -2,7 +2,6 @@
 #include "film.hpp"
 
 #include <core/base/counted.hpp>
-#include <core/base/error.hpp>
 #include <core/parts/draw_in_parts.hpp>
 #include <core/scene/output/png_file.hpp>
 #include <core/scene/resolve.hpp>
@@ -12,6 +11,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -21,12 +22,47 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/** A still scene for each picture, with its time step and camera; colours mean the same in all. Called by all of a group. */
-std::vector<Scene> frames_of(const Scene& scene, const RuntimeVolume& whole, VolumeInParts& parts) {
-    if (scene.warp && (scene.animation->n_phases > 0 || scene.animation->time_steps)) {
-        throw Error(scene.volume,
-                    "a warp that differs from picture to picture cannot be drawn in parts yet; without --parts it can");
+/** The volume in parts, displaced as the scene that is drawn says. */
+class PartsOfScenes {
+public:
+    PartsOfScenes(const VolumeToPart& volume, const Device& device, Precision precision, Partition partition, Team& team,
+                  const TaskControl& control)
+        : m_volume(volume), m_device(device), m_precision(precision), m_partition(std::move(partition)), m_team(team),
+          m_control(control) {}
+
+    /** Called by all of the group. Kept until a scene is displaced in another way. */
+    VolumeInParts& of(const Scene& scene) {
+        const std::pair moment(scene.time_step, scene.warp ? scene.warp->phase : 0);
+        if (!m_parts || (scene.warp && moment != m_moment)) {
+            m_moment = moment;
+            m_parts.reset();
+            m_parted.reset();
+            m_displaced.reset();
+            if (scene.warp) {
+                m_displaced.emplace(displaced(m_volume.undeformed, scene, m_volume.whole.path(), m_control));
+            }
+            m_parted = (m_displaced ? *m_displaced : m_volume).parted(m_control);
+            m_parts.emplace(*m_parted, m_device, m_precision, m_partition, m_team, &m_control);
+        }
+        return *m_parts;
     }
+
+private:
+    const VolumeToPart& m_volume;
+    const Device& m_device;
+    Precision m_precision;
+    Partition m_partition;
+    Team& m_team;
+    const TaskControl& m_control;
+    std::pair<std::uint32_t, double> m_moment;
+    std::optional<VolumeToPart> m_displaced;
+    std::unique_ptr<PartedVolume> m_parted;
+    std::optional<VolumeInParts> m_parts;
+};
+
+/** A still scene for each picture, with its time step, phase and camera; colours mean the same in all. Called by all of a
+ * group. */
+std::vector<Scene> frames_of(const Scene& scene, const RuntimeVolume& whole, PartsOfScenes& parts) {
     Scene still = scene;
     still.range_steps = steps_of_animation(scene, whole);
     still.animation.reset();
@@ -34,11 +70,14 @@ std::vector<Scene> frames_of(const Scene& scene, const RuntimeVolume& whole, Vol
         still.time_step = still.range_steps.front();
     }
     // Where the camera stands follows from bounds and ranges that the group finds out together.
-    const Camera camera = parts.draw(still, false).still.request.camera;
+    const Camera camera = parts.of(scene).draw(still, false).still.request.camera;
     std::vector<Scene> all;
     for (const AnimationFrame& frame : animation_frames(*scene.animation, still.range_steps, scene.time_step, camera)) {
         Scene& one = all.emplace_back(still);
         one.time_step = frame.time_step;
+        if (one.warp && frame.phase) {
+            one.warp->phase = *frame.phase;
+        }
         set_camera(one.camera, frame.camera);
     }
     return all;
@@ -47,7 +86,7 @@ std::vector<Scene> frames_of(const Scene& scene, const RuntimeVolume& whole, Vol
 /** A group's pictures. */
 class GroupPictures {
 public:
-    GroupPictures(const RenderArguments& arguments, VolumeInParts& parts, Team& group)
+    GroupPictures(const RenderArguments& arguments, PartsOfScenes& parts, Team& group)
         : m_arguments(arguments), m_parts(parts), m_group(group), m_folder(arguments.output) {}
 
     void draw(std::uint32_t frame, const Scene& scene) {
@@ -56,7 +95,7 @@ public:
         if (m_group.of_first({m_arguments.resume && fs::exists(file) ? 1.0 : 0.0}).front() != 0) {
             return;
         }
-        const PartsPicture picture = m_parts.draw(scene, false);
+        const PartsPicture picture = m_parts.of(scene).draw(scene, false);
         if (m_group.is_first()) {
             write_png(picture.still.frame, file.string(), m_arguments.bits);
             tell(frame, picture.still.remarks);
@@ -75,7 +114,7 @@ private:
     }
 
     const RenderArguments& m_arguments;
-    VolumeInParts& m_parts;
+    PartsOfScenes& m_parts;
     Team& m_group;
     fs::path m_folder;
     std::set<std::string> m_told;
@@ -88,8 +127,7 @@ void render_parts_film(const RenderArguments& arguments, const Scene& scene, con
     const std::uint32_t n_groups = std::max(1u, team.size() / partition.n_parts());
     const std::unique_ptr<Team> group = team.group(n_groups);
     fs::create_directories(arguments.output);
-    const std::unique_ptr<PartedVolume> parted = volume.parted(control);
-    VolumeInParts parts(*parted, device, scene.precision.value_or(Precision::float32), std::move(partition), *group, &control);
+    PartsOfScenes parts(volume, device, scene.precision.value_or(Precision::float32), std::move(partition), *group, control);
     const std::vector<Scene> frames = frames_of(scene, volume.whole, parts);
     GroupPictures pictures(arguments, parts, *group);
     for (auto frame = team.group_number(n_groups); frame < frames.size(); frame += n_groups) {

@@ -47,7 +47,7 @@ VolumeToPart open_to_part(const Scene& scene, const PluginRegistry& plugins, Tea
     const std::string path = files.front().path;
     if (files.front().plugin->id() != native_plugin_id && scene.joined.empty() && !scene.warp) {
         RuntimeVolume whole = files.front().open(&control);
-        return {std::move(files), nullptr, std::move(whole)};
+        return {std::move(files), nullptr, nullptr, std::move(whole)};
     }
     std::shared_ptr<const native::VolumeSource> source =
         source_of(files.front(), scene.joined.empty() ? "displaced (warp)" : "joined (joined)");
@@ -62,10 +62,20 @@ VolumeToPart open_to_part(const Scene& scene, const PluginRegistry& plugins, Tea
         source = joined_source(std::move(source), std::move(joined), path);
     }
     if (scene.warp) {
-        source = warped_source(std::move(source), *scene.warp, scene.time_step, path);
+        VolumeToPart volume = displaced(std::move(source), scene, path, control);
+        volume.files = std::move(files);
+        return volume;
     }
     RuntimeVolume whole = serve_native(source, path, &control);
-    return {std::move(files), std::move(source), std::move(whole)};
+    return {std::move(files), std::move(source), nullptr, std::move(whole)};
+}
+
+VolumeToPart displaced(std::shared_ptr<const native::VolumeSource> undeformed, const Scene& scene, const std::string& name,
+                       const TaskControl& control) {
+    std::shared_ptr<const native::VolumeSource> source = warped_source(undeformed, *scene.warp, scene.time_step, name);
+    RuntimeVolume whole = serve_native(source, name, &control);
+    whole.set_undeformed([undeformed, name, &control] { return serve_native(undeformed, name, &control); });
+    return {{}, std::move(source), std::move(undeformed), std::move(whole)};
 }
 
 } // namespace elvis::commands
